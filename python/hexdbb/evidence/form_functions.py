@@ -187,7 +187,7 @@ class FormsAboutFit:
         sums = Sums(linear, kept.readings, ())
         cross = np.concatenate([sums.cross(kept.signature(each).table)[0] for each in functions])
         self._imitated, self._gradient = sums.whole.imitated(cross)
-        ends = list(accumulate((_width(each) for each in functions), initial=0))
+        ends = list(accumulate((each.size for each in functions), initial=0))
         self._at = {each: np.arange(*span) for each, *span in zip(functions, ends[:-1], ends[1:], strict=True)}
 
     def beside(self, functions: tuple[Learned, ...], size_mm: float) -> Beside | None:
@@ -209,10 +209,6 @@ class FormsAboutFit:
         weights = np.exp(-0.5 * (grid / criteria.form_sigma) ** 2)  # half-normal
         found = marginal(projected, self._gradient[at], [factor], grid, weights / weights.sum())
         return Beside(together, factor, projected, found)
-
-
-def _width(function: Learned) -> int:
-    return function.components * function.variable.columns
 
 
 def diagonal(parts: Sequence[Floats]) -> Floats:

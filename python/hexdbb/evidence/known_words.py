@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from itertools import product
 
 from hexdbb.errors import RunError
-from hexdbb.evidence.needed import explained_beyond
+from hexdbb.evidence.needed import explained_beyond, explains_by_its_formula
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.place import at_its_place
 from hexdbb.evidence.screen import Hypothesis, Known
@@ -153,9 +153,8 @@ def _is_mostly_form(search: Search, node: Node, than: Node) -> bool:
     new = [each for each in node.members if each.hypothesis not in than.hypotheses]
     if len(new) != 1 or (form := node.trial.forms[node.members.index(new[0])]) is None:
         return False
-    without = search.trials.of_fewer(node.without(new[0]), node.trial).left
-    by_formula = without - search.left_by_formula(node.trial, form)
-    return by_formula < search.criteria.explained_min * (without - node.trial.left)
+    others = search.trials.of_fewer(node.without(new[0]), node.trial)
+    return not explains_by_its_formula(search, node, form, others, search.criteria.explained_min)
 
 
 def _is_at(one: Hypothesis, learned: Learned) -> bool:

@@ -19,6 +19,7 @@ from hexdbb.evidence.settling import (
 from hexdbb.evidence.trial import Member
 
 if TYPE_CHECKING:
+    from hexdbb.evidence.form import Form
     from hexdbb.evidence.node import Node
     from hexdbb.evidence.search import Search
     from hexdbb.evidence.trial import Trial
@@ -155,8 +156,13 @@ def is_form_alone(search: Search, node: Node, member: Member, others: Trial) -> 
         return False
     if not explains_by_formulas(search, others):
         return False
+    return not explains_by_its_formula(search, node, form, others, search.criteria.formula_least)
+
+
+def explains_by_its_formula(search: Search, node: Node, form: Form, others: Trial, least: float) -> bool:
+    """Check that an effect explains such a part of what it does beside others without the functions of its form."""
     by_formula = others.left - search.left_by_formula(node.trial, form)
-    return by_formula < search.criteria.formula_least * (others.left - node.trial.left)
+    return by_formula >= least * (others.left - node.trial.left)
 
 
 def has_form_alone(search: Search, node: Node) -> bool:

@@ -20,7 +20,8 @@ Floats = NDArray[np.float64]
 
 
 MOST_AXES = 2
-"""Axes along which functions push that may be finer at once."""
+"""Axes along which functions push that may be finer at once: of one carriage; along three, fine functions explain
+whatever there is."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +56,13 @@ class Scored:
     heldout_left: float = float("nan")
 
 
-def is_dense(variable: Variable) -> bool:
+def may_be_finer_at_once(hypothesis: Learned) -> bool:
+    """Check for few axes, and for a variable of which readings may ask for more splines than it has."""
+    variable = hypothesis.variable
+    return hypothesis.components <= MOST_AXES and variable.may_be_finer and not _is_dense(variable)
+
+
+def _is_dense(variable: Variable) -> bool:
     """Check for what is fine where it changes fast, has a fine function of its own, or is known by a period."""
     return variable.signed or variable.is_log or variable.column in ("time_s", "deflection_mm", "gauge_scale_mm")
 
@@ -145,10 +152,9 @@ class Screen:
         is what is a function of a logarithm. What is narrow along the gauge's scale repeats there; a finer function of
         time, or of three axes, explains whatever there is. One carriage that is pushed aside is so along two.
         """
-        alone = [each for each in hypotheses if each.components <= MOST_AXES and each.variable.may_be_finer]
-        may_be = [each for each in alone if not is_dense(each.variable)]
+        may_be = filter(may_be_finer_at_once, hypotheses)
         finer = [each.finer(times) for each in may_be for times in self.criteria.finer_at_once]
-        few = [each for each in finer if each.components * each.variable.columns <= self.criteria.most_tuned]
+        few = [each for each in finer if each.size <= self.criteria.most_tuned]
         best = {each.name: each for each in reversed(self.ranked([*hypotheses, *varying(few, self.sums.readings)]))}
         return [best[each.name] for each in hypotheses]
 

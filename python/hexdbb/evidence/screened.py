@@ -135,7 +135,7 @@ def screened_finer(search: Search, base: Trial, screen: Screen) -> list[Scored]:
     criteria, readings = search.criteria, search.engine.readings
     every = _elsewhere(search, base, (*search.learnable.simple, *search.learnable.further.values()))
     finer = [each.finer(FINER_TIMES) for each in every if each.variable.may_be_finer]
-    few = [each for each in finer if each.components * each.variable.columns <= criteria.most_finer]
+    few = [each for each in finer if each.size <= criteria.most_finer]
     return _screened_once(search, screen, list(varying(few, readings)))
 
 

@@ -65,14 +65,20 @@ class Thinned:
     def signature(self, hypothesis: Learned) -> Signature:
         """Return a hypothesis' signature on these rows."""
         if hypothesis not in self._kept:
-            table = np.empty((len(self.rows), _width(hypothesis)), np.float32)
+            table = np.empty((len(self.rows), hypothesis.size), np.float32)
             self._kept[hypothesis] = signature_of(hypothesis, self.readings, table=table)
         return self._kept[hypothesis]
 
+    def without_own(self, linear: Linear) -> Floats:
+        """Return [J L^-T y'] of the rows of a linearisation (`Training.without_own`)."""
+        thin = self.linear(linear)
+        return np.column_stack(Sums(thin, self.readings, ()).whole.without_own(thin))
+
     def scaled(self, hypothesis: Learned) -> Floats:
-        """Return a hypothesis' signature with its prior's factor, of which coefficients are as probable as any."""
-        signature = self.signature(hypothesis)
-        found: Floats = signature.table @ signature.prior_factor(self._roughness)
+        """Return a hypothesis' signature times its prior's factor: its coefficients are then equally probable."""
+        signature, ranked = self.signature(hypothesis), self._priors.get(hypothesis)
+        factor = signature.prior_factor(self._roughness) if ranked is None else ranked[0]
+        found: Floats = signature.table @ factor
         return found
 
     def log_evidences(self, hypotheses: Sequence[Learned], linear: Linear, sizes_mm: Floats, temper: float) -> Floats:
@@ -86,8 +92,7 @@ class Thinned:
         sizes_mm : ndarray, shape (m,)
         temper : float
         """
-        thin = self.linear(linear)
-        right = np.column_stack(Sums(thin, self.readings, ()).whole.without_own(thin))
+        right = self.without_own(linear)
 
         def found(some: Sequence[Learned]) -> list[float]:
             return [*self._of_some(some, right, sizes_mm, temper)]
@@ -96,7 +101,7 @@ class Thinned:
 
     def _of_some(self, hypotheses: Sequence[Learned], right: Floats, sizes_mm: Floats, temper: float) -> Floats:
         """Return the log evidence of hypotheses; `right`: [J L^-T y'] (`Training.without_own`)."""
-        widths = np.array([_width(each) for each in hypotheses], np.intp)
+        widths = np.array([each.size for each in hypotheses], np.intp)
         found = np.empty(len(hypotheses))
         for width in np.unique(widths):
             same, many = np.flatnonzero(widths == width), max(1, COLUMNS_AT_ONCE // int(width))
@@ -107,7 +112,7 @@ class Thinned:
 
     def _of_one_width(self, some: Sequence[Learned], right: Floats, sizes_mm: Floats, temper: float) -> Floats:
         """Return the log evidence of hypotheses of as many functions."""
-        width = _width(some[0])
+        width = some[0].size
         tables = np.empty((len(self.rows), len(some) * width))
         parts = np.split(tables, range(width, tables.shape[1], width), axis=1)
         factors, squares = (np.stack(each) for each in zip(*map(self._written, some, parts), strict=True))
@@ -129,7 +134,3 @@ class Thinned:
     def _prior(self, signature: Signature, table: Floats) -> tuple[Floats, Floats]:
         factor = signature.prior_factor(self._roughness)
         return factor, factor.T @ (table.T @ table) @ factor
-
-
-def _width(hypothesis: Learned) -> int:
-    return hypothesis.components * hypothesis.variable.columns

@@ -90,7 +90,7 @@ def with_other_splines(
     sums = Sums(linear, readings, ("circle",))
     screen = Screen(sums, criteria, search.thinned, criteria.tuned_penalties, max(left - 1.0, 0.0))
     variants = [*varying(hypothesis.variants(), readings)] or [hypothesis]
-    held = [each for each in variants if each.components * each.variable.columns <= (most or criteria.most_tuned)]
+    held = [each for each in variants if each.size <= (most or criteria.most_tuned)]
     found: list[Scored] = []
     for each in held or variants[:1]:
         if not (_is_too_fine(found) and each.variable.count > variants[0].variable.count):

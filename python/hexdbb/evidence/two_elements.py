@@ -20,12 +20,11 @@ from hexdbb.evidence.marginal import log_evidences
 from hexdbb.evidence.needed import needs_all
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.refine import finely_tuned
-from hexdbb.evidence.screen import Scored, is_dense
+from hexdbb.evidence.screen import may_be_finer_at_once
 from hexdbb.evidence.settling import predicts
 from hexdbb.evidence.signatures import varying
-from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.tuned import axes_of
-from hexdbb.learned import ALL, Learned
+from hexdbb.learned import ALL, Learned, Variable
 from hexdbb.learned.places import KINDS, PAIRS
 
 if TYPE_CHECKING:
@@ -39,7 +38,8 @@ NEAR = 0.97
 """Part of the best pair's evidence to first order that another must have: of four true pairs each was the best, and
 what imitates them at another place had 0.99 of its evidence, or 0.94 and less."""
 FINER = 6
-"""Pairs that are compared with finer functions besides, each of another state."""
+"""Pairs that are compared with finer functions besides, each of another state: of four true pairs each state was among
+the first three with the splines that it has at first."""
 
 
 class Pair(NamedTuple):
@@ -83,15 +83,11 @@ def _fitted(search: Search, pair: Pair) -> Node | None:
     """Return a pair fitted in full and tuned, the second function beside the first."""
     node = search.root
     for each in pair.functions:
-        tried = search.tried(node, [_scored(search, node, each)])
+        tried = search.tried(node, [search.screen(node).scored(each)])
         if not tried:
             return None
         node = tried[0]
     return finely_tuned(search, node)
-
-
-def _scored(search: Search, node: Node, function: Learned) -> Scored:
-    return search.screen(node).scored(function)
 
 
 def best_pairs(search: Search) -> list[Pair]:
@@ -107,10 +103,9 @@ def best_pairs(search: Search) -> list[Pair]:
     readings, times = search.engine.readings, search.criteria.finer_at_once
     found = list(coarse)
     for each in coarse[:FINER]:
-        may_be = all(one.variable.may_be_finer and not is_dense(one.variable) for one in each.functions)
-        for finer in times if may_be else ():
+        for finer in times if all(map(may_be_finer_at_once, each.functions)) else ():
             both = list(varying([one.finer(finer) for one in each.functions], readings))
-            if len(both) == len(each.functions) and _width(both) <= search.criteria.most_tuned:
+            if len(both) == len(each.functions) and sum(one.size for one in both) <= search.criteria.most_tuned:
                 found.append(pairs.best_of(both))
     best: dict[tuple[str, ...], Pair] = {}
     for each in sorted(found, key=lambda each: -each.log_evidence):
@@ -121,18 +116,14 @@ def best_pairs(search: Search) -> list[Pair]:
 def _families(search: Search) -> Iterable[list[Learned]]:
     """Return the functions of one state, each of another element of places alike, that push along one axis.
 
-    A guideway that is bent has it in either direction.
+    A guideway that is bent has it in either direction. A variable that was tuned has splines of its own number.
     """
-    found: dict[tuple[str, str], list[Learned]] = defaultdict(list)
+    found: dict[tuple[str, Variable], list[Learned]] = defaultdict(list)
     for each in (*search.learnable.simple, *search.learnable.further.values()):
         is_one = each.element != ALL and each.element not in PAIRS.values() and each.components == 1
         if is_one and each.place in KINDS and not each.variable.of_element:
-            found[KINDS[each.place], each.variable.name].append(each)
+            found[KINDS[each.place], each.variable].append(each)
     return (each for each in found.values() if len({one.element for one in each}) > 1)
-
-
-def _width(functions: Iterable[Learned]) -> int:
-    return sum(each.components * each.variable.columns for each in functions)
 
 
 class _Pairs:
@@ -140,8 +131,7 @@ class _Pairs:
 
     def __init__(self, search: Search) -> None:
         screen, self._thinned = search.screen(search.root), search.thinned
-        linear = self._thinned.linear(screen.sums.linear)
-        self._right = np.column_stack(Sums(linear, self._thinned.readings, ()).whole.without_own(linear))
+        self._right = self._thinned.without_own(screen.sums.linear)
         self._sizes_mm, self._temper = screen.sizes_mm, screen.temper
 
     def best_of(self, functions: Sequence[Learned]) -> Pair:

@@ -212,6 +212,11 @@ class Learned:
         return 1 if self.variable.is_vector else COMPONENTS.get(self.place, 1)
 
     @property
+    def size(self) -> int:
+        """Number of coefficients."""
+        return self.components * self.variable.columns
+
+    @property
     def functions(self) -> int:
         """Number of functions of the variable, all components together."""
         return self.components * self.variable.ways

@@ -106,7 +106,7 @@ class Space:
     @property
     def size(self) -> int:
         """Number of coefficients."""
-        return self.hypothesis.components * self.hypothesis.variable.columns
+        return self.hypothesis.size
 
     @property
     def interval(self) -> float:
