@@ -125,8 +125,8 @@ LINGERING_ANGLE = tuple(following(v.ANGLE, LINGERING, each) for each in CONSTANT
 HEATED = tuple(following(v.VELOCITY, LINGERING, each) for each in HEATS_S)
 """A nut or a motor that its own travel heats: the slider's place is off, or the leg grows that stands on it."""
 HEATED_THERE = tuple(following(v.POSITION, LINGERING, each) for each in CONSTANTS_S[2:])
-"""What is warmed, or cooled, at one end of the travel, and takes that along, for 20 or 60 s at first: what forgets within
-seconds is a function of the position."""
+"""What is warmed, or cooled, at one end of the travel, and takes that along, for 20 or 60 s at first: what forgets
+within seconds is a function of the position."""
 LATE_WARMING = tuple(following(v.WARMING, LAGGED, each) for each in HEATS_S)
 """What is thick warms later than the thermometer."""
 BY_TRAVEL = "travel_direction", "direction of travel"
