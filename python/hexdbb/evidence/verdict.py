@@ -8,6 +8,7 @@ from hexdbb.diagnosis import Sufficiency
 from hexdbb.evidence.admissible import Checked
 from hexdbb.evidence.as_forms import as_forms
 from hexdbb.evidence.beside import with_known_left
+from hexdbb.evidence.each_element import or_at_each_element
 from hexdbb.evidence.exchange import of_better_form, settled, with_found_beside
 from hexdbb.evidence.fine_enough import or_another_beside, or_one_fine_enough, or_one_place
 from hexdbb.evidence.further_elements import with_elements_that_predict
@@ -114,7 +115,7 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     if before.is_sufficient:
         return Verdict("none", (), search.root, None, before, refined_forms(search))
     searched = or_the_second_alone(search, search.run())
-    first = _in_sure_words(search, or_at_two_elements(search, searched))
+    first = _in_sure_words(search, or_at_each_element(search, or_at_two_elements(search, searched)))
     other = or_another_that_predicts(search, first)
     node = in_known_words(search, other)
     if other is not first:

@@ -30,7 +30,7 @@ TRUTH = {
     "joint-friction-10x": "joint_friction:2",
 }
 NUMBERS = {"rail-warms": 470.4, "fan-cools": 16.0, "nut-heats": 304.0, "cover-jams": 2.5}
-NUMBERS |= {"motor-heats-foot": 94.6, "end-heats-leg": 18.26}
+NUMBERS |= {"legs-breathe": 702.0, "motor-heats-foot": 94.6, "end-heats-leg": 18.26}
 NUMBERS |= {"column-sways": 430.0, "mains-hums": 1.0 / 49.963, "post-shakes": 1.0 / 4.63}
 """True value of the number in the name of the cause, by record: s or mm."""
 DIRECTION_DEG = {"hose-pulls": (40.1, 3.0)}
@@ -275,6 +275,8 @@ def test_leads_of_both_screws_of_a_guideway_are_two_leads() -> None:
             "learned:reading:deflection_since_turn_by_deflection",
             {"circle", "feed", "direction", "lap"},
         ),
+        # Six legs that swing with the room, each by its own amount: the cup, in three directions, said most.
+        ("legs-breathe", "learned:leg:each:time_period@", {"circle", "feed", "direction", "lap"}),
         # A motor heats the leg's foot by its own motion: a function of time, which says nothing of another time.
         ("motor-heats-foot", "learned:leg:5:velocity_lingering@", {"circle", "feed", "direction", "lap"}),
         # A leg that is warmed where its slider stands near the guideway's end: a load of the drive, as it was before.
