@@ -147,6 +147,7 @@ class Exchange:
         self._given_up: set[int] = set()
         self._outstanding: set[int] = set()
         self._owed = [0] * SLOTS
+        self._alone = True
         self.sync_s = 0.0
 
     def set_targets(self, controlwords: Sequence[int], counts: Sequence[int]) -> None:
@@ -173,7 +174,7 @@ class Exchange:
         if self._sync_overflow:
             self._number = self._number % self._sync_overflow + 1
             number = bytes((self._number,))
-        self.feedback.settled = not any(self._owed)
+        self._alone = not any(self._owed)
         if with_targets:
             self._bus.send_burst(self._both, self._packed + number)
         else:
@@ -183,7 +184,7 @@ class Exchange:
         self._outstanding = set(range(SLOTS))
 
     def collect(self, timeout_s: float) -> Feedback:
-        """Receive the answers to the last SYNC.
+        """Receive the answers to the last SYNC; called again, those that have come since.
 
         Parameters
         ----------
@@ -211,7 +212,7 @@ class Exchange:
             elif left_s <= 0.0:
                 break
         self.feedback.missing = tuple(sorted(outstanding))
-        self.feedback.settled = self.feedback.settled and not outstanding
+        self.feedback.settled = self._alone and not outstanding
         return self.feedback
 
     def drain(self, quiet_s: float = 0.0) -> None:

@@ -134,6 +134,8 @@ class Loop:
             self.while_waiting()
             if len(feedback.missing) == SLOTS:
                 self._wait_for_any(controlwords, counts)
+                # Where the SYNC before has none, answers that come so late may be those to it.
+                feedback.settled = feedback.settled and not self._incomplete
         self._incomplete = bool(feedback.missing)
         return feedback
 
@@ -177,7 +179,8 @@ class Loop:
         bool
             False where a node has answered once more than it was asked: some answers are another SYNC's.
         """
-        if not self.clock.real_time:
+        # While answers are missing the silence has lasted longer already, and those that came now would not be paired.
+        if not (self.clock.real_time or self._exchange.is_waiting()):
             self._exchange.drain(QUIET_S)
         doubtful, self._exchange.doubtful = self._exchange.doubtful, False
         return not doubtful
