@@ -15,8 +15,8 @@ from hexdbb.evidence.last_resort import needs_no_other
 from hexdbb.evidence.needed import explains_more
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.refine import finely_tuned
-from hexdbb.evidence.screen import Screen
-from hexdbb.evidence.settling import predicts
+from hexdbb.evidence.screen import Screen, may_be_finer
+from hexdbb.evidence.settling import errs_as_expected, predicts
 from hexdbb.evidence.signatures import varying
 from hexdbb.evidence.thinned import Thinned
 from hexdbb.learned import Learned
@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 
 FITTED = 2
 """States that are fitted in full: a position and what resembles it may rank by their sharpness."""
+FINER = 4
+"""Multiple of the splines with which functions are looked at besides, where they may be finer: six joints whose balls
+have nineteen lobes show nothing with twelve splines, and so no rank would tell which to look at."""
 
 
 def or_at_each_element(search: Search, node: Node) -> Node:
@@ -43,7 +46,9 @@ def or_at_each_element(search: Search, node: Node) -> Node:
     screen = search.screen(search.root)
     few = Thinned(search.engine.readings, search.criteria.thinned_rows, search.criteria.ranking_roughness, keeps=False)
     ranked = Screen(screen.sums, search.criteria, few).ranked([*varying(_every(search), search.engine.readings)])
-    tried = search.tried(search.root, [screen.scored(each) for each in ranked[:FITTED]])
+    best = {each.name: each for each in reversed(ranked)}
+    chosen = [each for each in ranked if best[each.name] is each][:FITTED]
+    tried = search.tried(search.root, [screen.scored(each) for each in chosen])
     found = [finely_tuned(search, each) for each in tried]
     better = [each for each in found if _stands_before(search, each, node)]
     search.nodes += better
@@ -58,8 +63,13 @@ def _stands_before(search: Search, each: Node, node: Node) -> bool:
     """
     is_more = each.score - node.score > search.criteria.margin_nats
     is_less = each.trial.left - 1.0 < search.criteria.far_better * (node.trial.left - 1.0)
-    is_all = is_more and is_less and not each.trial.refused and predicts(search, each) and needs_no_other(search, each)
+    is_all = is_more and is_less and not each.trial.refused and predicts(search, each) and _is_exact(search, each)
     return is_all and _is_of_more_than_one(search, each)
+
+
+def _is_exact(search: Search, each: Node) -> bool:
+    """Check that a set leaves no structure, and errs on what is left out as it expects of itself."""
+    return each.trial.left < search.criteria.leaves_structure and errs_as_expected(search, each)
 
 
 def _is_of_more_than_one(search: Search, each: Node) -> bool:
@@ -74,19 +84,20 @@ def _is_of_more_than_one(search: Search, each: Node) -> bool:
 
 
 def _every(search: Search) -> Iterator[Learned]:
-    """Yield the functions of every state that all elements of a place have, and of the periods that were found.
+    """Yield the functions of every simple state that elements of a place have, and of the periods that were found.
 
     Six free functions of time are whatever drifts: they claim nothing, and stand before nothing here.
     """
-    listed = (*search.learnable.simple, *search.learnable.further.values())
+    simple = [each for each in search.learnable.simple if each.element != ALL]
     for place in SHARED:
-        variables = [each.variable for each in listed if each.place == place and each.element != ALL]
+        variables = [each.variable for each in simple if each.place == place and not each.variable.of_neighbour]
         periods = [each.variable for each in _functions(search) if each.is_of_time and each.variable.period]
         for variable in dict.fromkeys((*variables, *periods)):
             each = Learned(place, EACH, variable)
-            is_free = each.is_of_time and not variable.period
-            if not (variable.of_element or is_free) and each.size <= search.criteria.most_tuned:
-                yield each
+            if variable.of_element or (each.is_of_time and not variable.period):
+                continue
+            finer = [each.finer(FINER)] if may_be_finer(variable) else []
+            yield from (one for one in (each, *finer) if one.size <= search.criteria.most_of_each)
 
 
 def _functions(search: Search) -> Iterator[Learned]:

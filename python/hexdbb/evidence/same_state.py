@@ -13,7 +13,10 @@ from hexdbb.evidence.last_resort import axes_along, state_of
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.refine import finely_tuned
 from hexdbb.evidence.settling import explains_nearly, predicts
-from hexdbb.learned import Learned
+from hexdbb.evidence.signatures import varying
+from hexdbb.evidence.tuned import axes_of
+from hexdbb.learned import Learned, has_chosen_number, number_of
+from hexdbb.learned.numbered import NUMBERED
 
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search
@@ -23,29 +26,30 @@ TRIED = 3
 
 
 def or_at_another_place(search: Search, node: Node) -> Node:
-    """Return the set with the same state at another place of the element, along fewer axes or if it leaves far less.
+    """Return the set with the same state at another place of the element.
+
+    It is that along fewer axes, or by functions that need fewer values, or if it leaves far less.
 
     Parameters
     ----------
     search : Search
     node : Node
         Returned unchanged if it is not one function, alone or beside known effects, or leaves no more than the noise
-        along one axis.
+        along one axis with as many splines as are listed.
     """
     functions = [each for each in node.members if isinstance(each.hypothesis, Learned)]
     if len(functions) != 1 or not search.learns:
         return node
-    if node.trial.left < search.criteria.refined_to and axes_along(node) == 1:
+    learned = functions[0].hypothesis
+    assert isinstance(learned, Learned)
+    is_fine = learned.variable.count > Learned.parse(learned.name).variable.count
+    if node.trial.left < search.criteria.refined_to and axes_along(node) == 1 and not is_fine:
         return node
     others = node.without(functions[0])
     base = search.node(others, near=node) if others else search.root
-    learned = functions[0].hypothesis
-    assert isinstance(learned, Learned)
-    learnable = search.learnable
-    every = [*learnable.further.values(), *learnable.crossed.values(), *learnable.by_name.values()]
-    same = {each.name: each for each in every if state_of(each) == state_of(learned) and each.place != learned.place}
     screen = search.screen(base)
-    scored = sorted((screen.scored(each) for each in same.values()), key=lambda each: -each.log_evidence)
+    same = varying(_elsewhere(search, learned), search.engine.readings)
+    scored = sorted((screen.scored(each) for each in same), key=lambda each: -each.log_evidence)
     tried = search.tried(base, scored[:TRIED])
     if not tried:
         return node
@@ -58,6 +62,22 @@ def or_at_another_place(search: Search, node: Node) -> Node:
     best = max(tuned, key=lambda each: each.score, default=node)
     search.nodes += [each for each in tried if not any(each is other for other in search.nodes)]
     return best
+
+
+def _elsewhere(search: Search, learned: Learned) -> list[Learned]:
+    """Return the functions of the same state at the element's other places, with the same number in their names."""
+    learnable = search.learnable
+    every = [*learnable.further.values(), *learnable.crossed.values(), *learnable.by_name.values()]
+    same = [each for each in every if _kind_of(each) == _kind_of(learned) and each.place != learned.place]
+    if has_chosen_number(learned.variable):
+        same = [each.with_number(number_of(learned.variable)) for each in same]
+    return [*{each.name: each for each in same}.values()]
+
+
+def _kind_of(learned: Learned) -> tuple[int | str, str]:
+    """Return the element and the variable, whatever number its name has."""
+    element, variable = state_of(learned)
+    return element, variable.partition(NUMBERED)[0] if has_chosen_number(learned.variable) else variable
 
 
 def or_at_the_rails(search: Search, node: Node) -> Node:
@@ -100,8 +120,21 @@ def _says_as_much(search: Search, node: Node, before: Node) -> bool:
 
 
 def _is_there(search: Search, node: Node, before: Node) -> bool:
-    """Check that a set predicts, has more evidence than another, and fewer axes, or leaves far less."""
+    """Check that a set predicts, has more evidence than another, and is simpler, leaves far less, or errs no more.
+
+    What a cable does that is wound up, turn by turn, is few values where it pulls along one direction, and many where
+    that goes round with the angle. Of sixty functions of one axis that were true, tuned, none had less evidence than
+    the same state along several: what has more, and errs about as little on all that is left out, is no freer guess.
+    """
     if node.score - before.score <= search.criteria.margin_nats or node.trial.refused:
         return False
-    is_less = node.trial.left - 1.0 < search.criteria.far_better * (before.trial.left - 1.0)
-    return (is_less or axes_along(node) < axes_along(before)) and predicts(search, node)
+    left, excess = node.trial.left - 1.0, before.trial.left - 1.0
+    is_less = excess > search.criteria.leaves_more - 1.0 and left < search.criteria.far_better * excess
+    is_simpler = axes_along(node) < axes_along(before) or axes_of(node) < axes_of(before)
+    return predicts(search, node) and (is_less or is_simpler or _errs_as_little(search, node, before))
+
+
+def _errs_as_little(search: Search, node: Node, before: Node) -> bool:
+    """Check that a set claims all that another does, and errs on it about as little or less."""
+    own, others, most = search.checked(node).heldout, search.checked(before).heldout, search.criteria.predicts_alike
+    return all(grouping in own and own[grouping].after < most * held.after for grouping, held in others.items())
