@@ -49,7 +49,8 @@ def or_at_each_element(search: Search, node: Node) -> Node:
     best = {each.name: each for each in reversed(ranked)}
     chosen = [each for each in ranked if best[each.name] is each][:FITTED]
     tried = search.tried(search.root, [screen.scored(each) for each in chosen])
-    found = [finely_tuned(search, each) for each in tried]
+    most = search.root.trial.left - search.criteria.form_explains * (search.root.trial.left - 1.0)
+    found = [finely_tuned(search, each) for each in tried if each.trial.left < most]
     better = [each for each in found if _stands_before(search, each, node)]
     search.nodes += better
     return max(better, key=lambda each: each.score, default=node)

@@ -70,7 +70,7 @@ def _elsewhere(search: Search, learned: Learned) -> list[Learned]:
     every = [*learnable.further.values(), *learnable.crossed.values(), *learnable.by_name.values()]
     same = [each for each in every if _kind_of(each) == _kind_of(learned) and each.place != learned.place]
     if has_chosen_number(learned.variable):
-        same = [each.with_number(number_of(learned.variable)) for each in same]
+        same = [each.with_number(number_of(learned.variable)) for each in same if has_chosen_number(each.variable)]
     return [*{each.name: each for each in same}.values()]
 
 
