@@ -14,7 +14,6 @@ from hexdbb.evidence.node import Node
 from hexdbb.evidence.refine import finely_tuned
 from hexdbb.evidence.settling import explains_nearly, predicts
 from hexdbb.evidence.signatures import varying
-from hexdbb.evidence.tuned import axes_of
 from hexdbb.learned import Learned, has_chosen_number, number_of
 from hexdbb.learned.numbered import NUMBERED
 
@@ -28,7 +27,7 @@ TRIED = 3
 def or_at_another_place(search: Search, node: Node) -> Node:
     """Return the set with the same state at another place of the element.
 
-    It is that along fewer axes, or by functions that need fewer values, or if it leaves far less.
+    It is that along fewer axes, or if it leaves far less, or has more evidence and errs about as little.
 
     Parameters
     ----------
@@ -70,7 +69,8 @@ def _elsewhere(search: Search, learned: Learned) -> list[Learned]:
     every = [*learnable.further.values(), *learnable.crossed.values(), *learnable.by_name.values()]
     same = [each for each in every if _kind_of(each) == _kind_of(learned) and each.place != learned.place]
     if has_chosen_number(learned.variable):
-        same = [each.with_number(number_of(learned.variable)) for each in same if has_chosen_number(each.variable)]
+        number = number_of(learned.variable)
+        same = [each.with_number(number) if has_chosen_number(each.variable) else each for each in same]
     return [*{each.name: each for each in same}.values()]
 
 
@@ -120,18 +120,18 @@ def _says_as_much(search: Search, node: Node, before: Node) -> bool:
 
 
 def _is_there(search: Search, node: Node, before: Node) -> bool:
-    """Check that a set predicts, has more evidence than another, and is simpler, leaves far less, or errs no more.
+    """Check that a set predicts, has more evidence than another, and fewer axes, leaves far less, or errs as little.
 
     What a cable does that is wound up, turn by turn, is few values where it pulls along one direction, and many where
     that goes round with the angle. Of sixty functions of one axis that were true, tuned, none had less evidence than
-    the same state along several: what has more, and errs about as little on all that is left out, is no freer guess.
+    the same state along several, but for two that erred less: what has more, and errs as little, is no freer guess.
     """
     if node.score - before.score <= search.criteria.margin_nats or node.trial.refused:
         return False
     left, excess = node.trial.left - 1.0, before.trial.left - 1.0
     is_less = excess > search.criteria.leaves_more - 1.0 and left < search.criteria.far_better * excess
-    is_simpler = axes_along(node) < axes_along(before) or axes_of(node) < axes_of(before)
-    return predicts(search, node) and (is_less or is_simpler or _errs_as_little(search, node, before))
+    is_freer = axes_along(node) >= axes_along(before)
+    return predicts(search, node) and (is_less or not is_freer or _errs_as_little(search, node, before))
 
 
 def _errs_as_little(search: Search, node: Node, before: Node) -> bool:
