@@ -106,7 +106,7 @@ def _or_as_listed(search: Search, base: Node, screen: Screen, node: Node) -> Nod
     return node if stands_before(search, finely_tuned(search, node), best) else best
 
 
-def state_of(hypothesis: Learned) -> tuple[int | str, str]:
+def state_of(hypothesis: Learned) -> tuple[int, str]:
     """Return the element and the variable, whether its change of sign is gradual or not, and it has a fine name."""
     return hypothesis.element, hypothesis.variable.name.partition(f"_{TURNING}@")[0].removeprefix(FINE)
 

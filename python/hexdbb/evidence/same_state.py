@@ -12,10 +12,12 @@ from typing import TYPE_CHECKING
 from hexdbb.evidence.last_resort import axes_along, state_of
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.refine import finely_tuned
+from hexdbb.evidence.screen import Scored
 from hexdbb.evidence.settling import explains_nearly, predicts
 from hexdbb.evidence.signatures import varying
 from hexdbb.learned import Learned, has_chosen_number, number_of
 from hexdbb.learned.numbered import NUMBERED
+from hexdbb.learned.places import ALL, OF_GUIDEWAY, members
 
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search
@@ -48,8 +50,11 @@ def or_at_another_place(search: Search, node: Node) -> Node:
     base = search.node(others, near=node) if others else search.root
     screen = search.screen(base)
     same = varying(_elsewhere(search, learned), search.engine.readings)
-    scored = sorted((screen.scored(each) for each in same), key=lambda each: -each.log_evidence)
-    tried = search.tried(base, scored[:TRIED])
+    of_each: dict[tuple[str, int], Scored] = {}
+    for each in sorted((screen.scored(each) for each in same), key=lambda each: -each.log_evidence):
+        assert isinstance(each.hypothesis, Learned)
+        of_each.setdefault((each.hypothesis.place, each.hypothesis.element), each)
+    tried = search.tried(base, [*of_each.values()][:TRIED])
     if not tried:
         return node
     before = finely_tuned(search, node)
@@ -64,20 +69,37 @@ def or_at_another_place(search: Search, node: Node) -> Node:
 
 
 def _elsewhere(search: Search, learned: Learned) -> list[Learned]:
-    """Return the functions of the same state at the element's other places, with the same number in their names."""
+    """Return the functions of the same state at the element's other places, with the same number in their names.
+
+    What one carriage does as it passes its rail's joint is no joint of the rail: carriages are looked at beside it.
+    """
     learnable = search.learnable
     every = [*learnable.further.values(), *learnable.crossed.values(), *learnable.by_name.values()]
-    same = [each for each in every if _kind_of(each) == _kind_of(learned) and each.place != learned.place]
+    same = [each for each in every if _variable_of(each) == _variable_of(learned) and _is_elsewhere(each, learned)]
     if has_chosen_number(learned.variable):
         number = number_of(learned.variable)
         same = [each.with_number(number) if has_chosen_number(each.variable) else each for each in same]
     return [*{each.name: each for each in same}.values()]
 
 
-def _kind_of(learned: Learned) -> tuple[int | str, str]:
-    """Return the element and the variable, whatever number its name has."""
-    element, variable = state_of(learned)
-    return element, variable.partition(NUMBERED)[0] if has_chosen_number(learned.variable) else variable
+def _variable_of(learned: Learned) -> str:
+    """Return the name of the variable, whatever number it has."""
+    _, variable = state_of(learned)
+    return variable.partition(NUMBERED)[0] if has_chosen_number(learned.variable) else variable
+
+
+def _is_elsewhere(one: Learned, other: Learned) -> bool:
+    """Check for another place of the same elements, or for the joint of one of a guideway's carriages."""
+    if {one.place in OF_GUIDEWAY, other.place in OF_GUIDEWAY} == {True, False}:
+        rail, joint = (one, other) if one.place in OF_GUIDEWAY else (other, one)
+        return joint.place == "slider_joint" and _carriages(joint) <= _carriages(rail)
+    return one.place != other.place and one.element == other.element
+
+
+def _carriages(learned: Learned) -> set[int]:
+    """Return the carriages, or their legs, at which a function acts: a guideway has two."""
+    is_rail = learned.place in OF_GUIDEWAY and learned.element != ALL
+    return {2 * learned.element - 1, 2 * learned.element} if is_rail else {*members(learned.element)}
 
 
 def or_at_the_rails(search: Search, node: Node) -> Node:
@@ -130,8 +152,16 @@ def _is_there(search: Search, node: Node, before: Node) -> bool:
         return False
     left, excess = node.trial.left - 1.0, before.trial.left - 1.0
     is_less = excess > search.criteria.leaves_more - 1.0 and left < search.criteria.far_better * excess
-    is_freer = axes_along(node) >= axes_along(before)
-    return predicts(search, node) and (is_less or not is_freer or _errs_as_little(search, node, before))
+    if not predicts(search, node):
+        return False
+    if is_less or axes_along(node) < axes_along(before):
+        return True
+    # A dent that one carriage alone passes is one of the rail.
+    return not (_is_of_rails(before) and not _is_of_rails(node)) and _errs_as_little(search, node, before)
+
+
+def _is_of_rails(node: Node) -> bool:
+    return any(isinstance(each, Learned) and each.place in OF_GUIDEWAY for each in node.hypotheses)
 
 
 def _errs_as_little(search: Search, node: Node, before: Node) -> bool:
