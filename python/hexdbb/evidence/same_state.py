@@ -83,9 +83,15 @@ def _elsewhere(search: Search, learned: Learned) -> list[Learned]:
 
 
 def _variable_of(learned: Learned) -> str:
-    """Return the name of the variable, whatever number it has."""
+    """Return the name of the variable, whatever number it has, and whoever's it is."""
     _, variable = state_of(learned)
-    return variable.partition(NUMBERED)[0] if has_chosen_number(learned.variable) else variable
+    name = variable.partition(NUMBERED)[0] if has_chosen_number(learned.variable) else variable
+    return name.removeprefix(f"slider_{learned.variable.of_element}_")
+
+
+def _whose(learned: Learned) -> int:
+    """Return the element whose variable it is: what couples into the gauge's cable is another's."""
+    return learned.variable.of_element or learned.element
 
 
 def _is_elsewhere(one: Learned, other: Learned) -> bool:
@@ -93,7 +99,7 @@ def _is_elsewhere(one: Learned, other: Learned) -> bool:
     if {one.place in OF_GUIDEWAY, other.place in OF_GUIDEWAY} == {True, False}:
         rail, joint = (one, other) if one.place in OF_GUIDEWAY else (other, one)
         return joint.place == "slider_joint" and _carriages(joint) <= _carriages(rail)
-    return one.place != other.place and one.element == other.element
+    return (one.place, one.element) != (other.place, other.element) and _whose(one) == _whose(other)
 
 
 def _carriages(learned: Learned) -> set[int]:
