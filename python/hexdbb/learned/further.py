@@ -350,6 +350,7 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
         *HEATED_THERE,
         *LEG_DIRECTIONS,
         JOINT_ANGLE_EACH_WAY,
+        v.TURNED,  # a leg turns in its thread as the platform circles
     ),
     "lateral": OF_RAIL,
     "vertical": OF_RAIL,
