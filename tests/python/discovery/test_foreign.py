@@ -287,6 +287,10 @@ def test_leads_of_both_screws_of_a_guideway_are_two_leads() -> None:
         ("cable-pulls", "learned:cup:turned", {"circle", "feed", "lap"}),
         # A nut whose heat lifts the carriage: a free function of time, of 320 splines, had more evidence than the law.
         ("nut-lifts", "learned:slider_joint:3:velocity_lingering@", {"circle", "feed", "direction", "lap"}),
+        # A leg that turns in its thread as the platform circles: two functions of the reading said most of it.
+        ("leg-unscrews", "learned:leg:5:turned", {"circle", "feed"}),
+        # One carriage that climbs a step of its rail in a slanted direction: the rail, up and down, left much.
+        ("carriage-climbs", "learned:slider_joint:2:position", {"circle", "feed", "direction", "lap"}),
         # A motor heats the leg's foot by its own motion: a function of time, which says nothing of another time.
         ("motor-heats-foot", "learned:leg:5:velocity_lingering@", {"circle", "feed", "direction", "lap"}),
         # A leg that is warmed where its slider stands near the guideway's end: a load of the drive, as it was before.
@@ -410,6 +414,23 @@ def test_a_delay_that_scatters_is_a_delay() -> None:
     found = found_in("delay-scatters")
     assert found.verdict == "effect"
     assert [each.choice for each in found.causes] == ["sample_delay"]
+
+
+@pytest.mark.long
+def test_a_delay_that_swings_is_no_drives_that_lead_besides() -> None:
+    """Each by less than what is refused as negative: what six of them do together, a longer delay undoes."""
+    found = found_in("delay-swings")
+    assert found.verdict == "effect"
+    assert [each.choice for each in found.causes] == ["sample_delay"]
+
+
+@pytest.mark.long
+def test_two_drives_that_hang_back_are_not_six() -> None:
+    """By the velocity, each in its own way: six lags say it as well, since what they have in common is hardly seen."""
+    found = found_in("drives-hang-back")
+    assert found.verdict == "unknown"
+    names = {each.choice.partition("_turning@")[0] for each in found.causes}
+    assert names == {"servo_lag:4", "learned:slider:6:velocity"}
 
 
 @pytest.mark.long
