@@ -138,21 +138,19 @@ def _says_as_much(search: Search, node: Node, before: Node) -> bool:
     """Check that a set along fewer axes has as much evidence as another, and errs no more on anything left out.
 
     What is freer expects to err more, and so is refused less: where it errs as much, but for the scatter of such a mean
-    square, that is no reason for it.
+    square, that is no reason for it. Nor is what neither determines, by what it expects of itself.
     """
-    if node.score < before.score or node.trial.refused or axes_along(node) >= axes_along(before):
+    if node.score < before.score - search.criteria.margin_nats or node.trial.refused:
         return False
-    own, others = search.checked(node).heldout, search.checked(before).heldout
-    most = 1.0 + (2.0 * len(search.engine.readings)) ** -0.5
-    return all(grouping in own and own[grouping].after <= most * held.after for grouping, held in others.items())
+    return axes_along(node) < axes_along(before) and _errs_as_little(search, node, before)
 
 
 def _is_there(search: Search, node: Node, before: Node) -> bool:
-    """Check that a set predicts, has more evidence than another, and fewer axes, leaves far less, or errs as little.
+    """Check that a set predicts, has more evidence than another, and fewer axes, leaves far less, or errs no more.
 
     What a cable does that is wound up, turn by turn, is few values where it pulls along one direction, and many where
     that goes round with the angle. Of sixty functions of one axis that were true, tuned, none had less evidence than
-    the same state along several, but for two that erred less: what has more, and errs as little, is no freer guess.
+    the same state along several without erring more: what has more evidence, and errs no more, is no freer guess.
     """
     if node.score - before.score <= search.criteria.margin_nats or node.trial.refused:
         return False
@@ -171,6 +169,8 @@ def _is_of_rails(node: Node) -> bool:
 
 
 def _errs_as_little(search: Search, node: Node, before: Node) -> bool:
-    """Check that a set claims all that another does, and errs on it about as little or less."""
-    own, others, most = search.checked(node).heldout, search.checked(before).heldout, search.criteria.predicts_alike
-    return all(grouping in own and own[grouping].after < most * held.after for grouping, held in others.items())
+    """Check that a set errs no more than another on all that the other determines, but for such errors' scatter."""
+    own, others = search.checked(node).heldout, search.checked(before).heldout
+    most = 1.0 + (2.0 * len(search.engine.readings)) ** -0.5
+    determined = {key: held for key, held in others.items() if held.expected <= search.criteria.extrapolates}
+    return all(grouping in own and own[grouping].after <= most * held.after for grouping, held in determined.items())
