@@ -29,7 +29,7 @@ TRIED = 3
 def or_at_another_place(search: Search, node: Node) -> Node:
     """Return the set with the same state at another place of the element.
 
-    It is that along fewer axes, or if it leaves far less, or has more evidence and errs about as little.
+    It is that along fewer axes, or if it leaves far less, or has more evidence and errs no more.
 
     Parameters
     ----------

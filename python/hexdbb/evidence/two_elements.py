@@ -35,7 +35,6 @@ Floats = NDArray[np.float64]
 
 FITTED = 3
 """Pairs that are fitted in full: the other leg of a pair, or a guideway's other axis, may rank before the true one."""
-TWO = 2
 NEAR = 0.97
 """Part of the best pair's evidence to first order that another must have: of four true pairs each was the best, and
 what imitates them at another place had 0.99 of its evidence, or 0.94 and less."""
@@ -83,8 +82,8 @@ def _stands_before(search: Search, pair: Node, node: Node) -> bool:
 
 
 def _is_at_more_elements(node: Node) -> bool:
-    """Check for one known effect at more elements than two."""
-    return len(node.members) == 1 and node.is_known and is_of_several(node.hypotheses[0]) and node.faults > TWO
+    """Check for one known effect at all elements, which are more than two."""
+    return len(node.members) == 1 and is_of_several(node.hypotheses[0])
 
 
 def _fitted(search: Search, pair: Pair) -> Node | None:
