@@ -7,6 +7,7 @@ angle at which that stands. Functions of one state at the places of one element 
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from hexdbb.evidence.last_resort import axes_along, state_of
@@ -17,7 +18,7 @@ from hexdbb.evidence.settling import explains_nearly, predicts
 from hexdbb.evidence.signatures import varying
 from hexdbb.learned import Learned, has_chosen_number, number_of
 from hexdbb.learned.numbered import NUMBERED
-from hexdbb.learned.places import ALL, OF_GUIDEWAY, members
+from hexdbb.learned.places import OF_GUIDEWAY
 
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search
@@ -69,10 +70,7 @@ def or_at_another_place(search: Search, node: Node) -> Node:
 
 
 def _elsewhere(search: Search, learned: Learned) -> list[Learned]:
-    """Return the functions of the same state at the element's other places, with the same number in their names.
-
-    What one carriage does as it passes its rail's joint is no joint of the rail: carriages are looked at beside it.
-    """
+    """Return the functions of the same state at the element's other places, with the same number in their names."""
     learnable = search.learnable
     every = [*learnable.further.values(), *learnable.crossed.values(), *learnable.by_name.values()]
     same = [each for each in every if _variable_of(each) == _variable_of(learned) and _is_elsewhere(each, learned)]
@@ -95,17 +93,10 @@ def _whose(learned: Learned) -> int:
 
 
 def _is_elsewhere(one: Learned, other: Learned) -> bool:
-    """Check for another place of the same elements, or for the joint of one of a guideway's carriages."""
-    if {one.place in OF_GUIDEWAY, other.place in OF_GUIDEWAY} == {True, False}:
-        rail, joint = (one, other) if one.place in OF_GUIDEWAY else (other, one)
-        return joint.place == "slider_joint" and _carriages(joint) <= _carriages(rail)
+    """Check for another place of the same elements: a guideway and a leg of one number have nothing in common."""
+    if (one.place in OF_GUIDEWAY) != (other.place in OF_GUIDEWAY):
+        return False
     return (one.place, one.element) != (other.place, other.element) and _whose(one) == _whose(other)
-
-
-def _carriages(learned: Learned) -> set[int]:
-    """Return the carriages, or their legs, at which a function acts: a guideway has two."""
-    is_rail = learned.place in OF_GUIDEWAY and learned.element != ALL
-    return {2 * learned.element - 1, 2 * learned.element} if is_rail else {*members(learned.element)}
 
 
 def or_at_the_rails(search: Search, node: Node) -> Node:
@@ -142,7 +133,8 @@ def _says_as_much(search: Search, node: Node, before: Node) -> bool:
     """
     if node.score < before.score - search.criteria.margin_nats or node.trial.refused:
         return False
-    return axes_along(node) < axes_along(before) and _errs_as_little(search, node, before)
+    most = search.criteria.extrapolates
+    return axes_along(node) < axes_along(before) and _errs_as_little(search, node, before, determined_to=most)
 
 
 def _is_there(search: Search, node: Node, before: Node) -> bool:
@@ -160,17 +152,12 @@ def _is_there(search: Search, node: Node, before: Node) -> bool:
         return False
     if is_less or axes_along(node) < axes_along(before):
         return True
-    # A dent that one carriage alone passes is one of the rail.
-    return not (_is_of_rails(before) and not _is_of_rails(node)) and _errs_as_little(search, node, before)
+    return _errs_as_little(search, node, before)
 
 
-def _is_of_rails(node: Node) -> bool:
-    return any(isinstance(each, Learned) and each.place in OF_GUIDEWAY for each in node.hypotheses)
-
-
-def _errs_as_little(search: Search, node: Node, before: Node) -> bool:
+def _errs_as_little(search: Search, node: Node, before: Node, determined_to: float = math.inf) -> bool:
     """Check that a set errs no more than another on all that the other determines, but for such errors' scatter."""
     own, others = search.checked(node).heldout, search.checked(before).heldout
     most = 1.0 + (2.0 * len(search.engine.readings)) ** -0.5
-    determined = {key: held for key, held in others.items() if held.expected <= search.criteria.extrapolates}
+    determined = {key: held for key, held in others.items() if held.expected <= determined_to}
     return all(grouping in own and own[grouping].after <= most * held.after for grouping, held in determined.items())

@@ -289,8 +289,6 @@ def test_leads_of_both_screws_of_a_guideway_are_two_leads() -> None:
         ("nut-lifts", "learned:slider_joint:3:velocity_lingering@", {"circle", "feed", "direction", "lap"}),
         # A leg that turns in its thread as the platform circles: two functions of the reading said most of it.
         ("leg-unscrews", "learned:leg:5:turned", {"circle", "feed"}),
-        # One carriage that climbs a step of its rail in a slanted direction: the rail, up and down, left much.
-        ("carriage-climbs", "learned:slider_joint:2:position", {"circle", "feed", "direction", "lap"}),
         # A motor heats the leg's foot by its own motion: a function of time, which says nothing of another time.
         ("motor-heats-foot", "learned:leg:5:velocity_lingering@", {"circle", "feed", "direction", "lap"}),
         # A leg that is warmed where its slider stands near the guideway's end: a load of the drive, as it was before.
