@@ -107,8 +107,8 @@ def _or_as_listed(search: Search, base: Node, screen: Screen, node: Node) -> Nod
 
 
 def state_of(hypothesis: Learned) -> tuple[int, str]:
-    """Return the element and the variable, whether its change of sign is gradual or not, and it has a fine name."""
-    return hypothesis.element, hypothesis.variable.name.partition(f"_{TURNING}@")[0].removeprefix(FINE)
+    """Return the element and the variable, whether its change of sign is gradual or not."""
+    return hypothesis.element, hypothesis.variable.name.partition(f"_{TURNING}@")[0]
 
 
 def _tuned(search: Search, every: Sequence[Node]) -> Iterator[Node]:

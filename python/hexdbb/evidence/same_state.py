@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from hexdbb.evidence.last_resort import axes_along, state_of
+from hexdbb.evidence.last_resort import FINE, axes_along, state_of
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.refine import finely_tuned
 from hexdbb.evidence.screen import Scored
@@ -82,7 +82,7 @@ def _elsewhere(search: Search, learned: Learned) -> list[Learned]:
 
 def _variable_of(learned: Learned) -> str:
     """Return the name of the variable, whatever number it has, and whoever's it is."""
-    _, variable = state_of(learned)
+    variable = state_of(learned)[1].removeprefix(FINE)
     name = variable.partition(NUMBERED)[0] if has_chosen_number(learned.variable) else variable
     return name.removeprefix(f"slider_{learned.variable.of_element}_")
 
