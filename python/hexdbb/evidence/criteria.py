@@ -58,6 +58,8 @@ class Criteria:
         The same of a function that is tuned about the fit of its set, which few are: a time constant of half a minute
         in a test of an hour needs 300, a joint between two pieces of rail 250. All functions of a set together have as
         many when no further one is added.
+    most_of_each : int
+        The same of six elements with a function each: the lobes of six balls need a hundred splines each.
     finer_at_once : tuple of int
         Multiples of splines with which the functions that have the most evidence are screened besides: twice and four
         times a dozen follow what repeats three or six times within a range.
@@ -290,6 +292,7 @@ class Criteria:
     least_seen: float = 0.05
     most_seen: int = 100
     most_tuned: int = 400
+    most_of_each: int = 800
     finer_at_once: tuple[int, ...] = (2, 4)
     most_finer: int = 128
     predicts_alike: float = 1.1

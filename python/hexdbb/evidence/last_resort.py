@@ -26,6 +26,9 @@ if TYPE_CHECKING:
 TUNED = 2
 """Sets that are tuned before they are left, by several full fits each: both sliders of a guideway may say the same."""
 
+FINE = "fine_"
+"""How names of variables begin that have more splines than another of the same column."""
+
 Screened = Callable[["Search", Trial, Screen], list[Scored]]
 
 
@@ -103,7 +106,7 @@ def _or_as_listed(search: Search, base: Node, screen: Screen, node: Node) -> Nod
     return node if stands_before(search, finely_tuned(search, node), best) else best
 
 
-def state_of(hypothesis: Learned) -> tuple[int | str, str]:
+def state_of(hypothesis: Learned) -> tuple[int, str]:
     """Return the element and the variable, whether its change of sign is gradual or not."""
     return hypothesis.element, hypothesis.variable.name.partition(f"_{TURNING}@")[0]
 

@@ -10,7 +10,7 @@ from hexdbb.evidence.needed import has_form_alone
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.readings import ARC
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.settling import explained_by_formulas, is_doubtful, leaves_no_structure
+from hexdbb.evidence.settling import explained_by_formulas, is_complete, is_doubtful, leaves_no_structure
 from hexdbb.evidence.sure import is_for_sure
 
 
@@ -42,6 +42,19 @@ def or_another_that_predicts(search: Search, node: Node) -> Node:
     others.sort(key=lambda each: -each.score)
     found = (e for e in others if _explains_and_predicts(search, e) and _errs_no_more(search, e, doubted))
     return next((each for each in found if not has_form_alone(search, each)), node)
+
+
+def or_a_state_that_predicts(search: Search, node: Node) -> Node:
+    """Return a function of a state that explains nearly all and predicts, in place of one free function of time.
+
+    What drifts in hundreds of splines has more evidence than any law that is not quite right, and claims nothing: what
+    else was left out and is predicted all the same, other feeds among it, is no chance.
+    """
+    if len(node.members) != 1 or not node.trial.is_free_in_time:
+        return node
+    others = [each for each in search.nodes if len(each.members) == 1 and not (each.is_known or each.trial.refused)]
+    others.sort(key=lambda each: -each.score)
+    return next((each for each in others if is_complete(search, each) and _explains_and_predicts(search, each)), node)
 
 
 def _doubted(search: Search, node: Node) -> dict[str, HeldOut]:

@@ -18,9 +18,10 @@ from hexdbb.evidence.place import Places, functions_at
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Known, Scored
 from hexdbb.evidence.trial import Member, Trial
-from hexdbb.evidence.tuned import axes_of, retunings, with_other_splines, with_tuned_numbers
+from hexdbb.evidence.tuned import axes_of, more_splines, retunings, with_other_splines, with_tuned_numbers
 from hexdbb.evidence.turning import with_turning
 from hexdbb.learned import Learned, part_of
+from hexdbb.learned.numbered import is_directed
 
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search
@@ -89,7 +90,30 @@ def with_best_splines(search: Search, node: Node) -> Node:
 def finely_tuned(search: Search, node: Node) -> Node:
     """Return a set whose learned functions turn over as gradually, and have the splines and numbers, that fit best."""
     node = with_best_splines(search, with_turning(search, node, until_no_structure=False))
-    return with_turning(search, with_tuned_numbers(search, node), until_no_structure=False)
+    node = _with_finer_along(search, with_tuned_numbers(search, node))
+    return with_turning(search, node, until_no_structure=False)
+
+
+def _with_finer_along(search: Search, node: Node) -> Node:
+    """Return a set whose function along a direction has more splines, and the direction that these ask for.
+
+    A step is no sharper along a direction that is a few degrees off, and with few splines a direction beside the true
+    one fits best: neither says that the other should change.
+    """
+    for member in node.members:
+        function = member.hypothesis
+        is_along = isinstance(function, Learned) and is_directed(function.variable) and not function.variable.is_coarse
+        if not is_along or node.trial.left < search.criteria.refined_to:
+            continue
+        for finer in more_splines(search, node, member):
+            members = tuple(finer if each is member else each for each in node.members)
+            try:
+                along = with_tuned_numbers(search, search.node(members, near=node))
+            except RunError:
+                continue
+            if _better(search, along.trial, node, worth=0.0, enough=search.criteria.predicted_to) is not None:
+                return along
+    return node
 
 
 def _widened(search: Search, node: Node, places: Places | None = None) -> Node:
@@ -174,10 +198,31 @@ def _if_better(
         trial = fitted()
     except RunError:
         return None
+    return _better(search, trial, node, worth, enough)
+
+
+def _better(search: Search, trial: Trial, node: Node, worth: float, enough: float) -> Node | None:
+    """Return the node of a trial, where it gains and predicts so."""
     gain = trial.log_evidence - node.trial.log_evidence
     found = Node(trial, node.score + gain)
-    is_better = gain > worth and not trial.refused and not _error(search, found) >= max(_error(search, node), enough)
+    is_better = gain > worth and not trial.refused and _errs_no_more(search, found, node, enough)
     return found if is_better and _predicts_as_well(search, trial, node.trial) else None
+
+
+def _errs_no_more(search: Search, found: Node, node: Node, enough: float) -> bool:
+    """Check that a set errs less than another on the first grouping that it claims, or little enough.
+
+    A grouping that only this one determines was not what the other claimed: it is better there where it errs less, and
+    then the groupings that both determine are asked.
+    """
+    if not _error(search, found) >= max(_error(search, node), enough):
+        return True
+    own, others = search.checked_trial(found.trial).heldout, search.checked_trial(node.trial).heldout
+    most, shared = search.criteria.extrapolates, [each for each in own if each in others]
+    determined = [each for each in shared if own[each].expected <= most]
+    new = [each for each in determined if others[each].expected > most]
+    asked = [*new, *(each for each in determined if each not in new)][: len(new) + 1]
+    return bool(new) and all(own[each].after < max(others[each].after, enough) for each in asked)
 
 
 def _predicts_as_well(search: Search, trial: Trial, before: Trial) -> bool:

@@ -58,8 +58,12 @@ class Scored:
 
 def may_be_finer_at_once(hypothesis: Learned) -> bool:
     """Check for few axes, and for a variable of which readings may ask for more splines than it has."""
-    variable = hypothesis.variable
-    return hypothesis.components <= MOST_AXES and variable.may_be_finer and not _is_dense(variable)
+    return hypothesis.components <= MOST_AXES and may_be_finer(hypothesis.variable)
+
+
+def may_be_finer(variable: Variable) -> bool:
+    """Check for a variable of which readings may ask for more splines than it has, before it is fitted."""
+    return variable.may_be_finer and not _is_dense(variable)
 
 
 def _is_dense(variable: Variable) -> bool:

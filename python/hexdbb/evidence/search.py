@@ -40,6 +40,7 @@ from hexdbb.evidence.thinned import Thinned
 from hexdbb.evidence.trial import Member, Trial
 from hexdbb.evidence.trials import Trials
 from hexdbb.learned import ALL, Learned, settling
+from hexdbb.learned.places import EACH
 
 Floats = NDArray[np.float64]
 
@@ -323,8 +324,10 @@ class Search:
     def member(self, scored: Scored, most_seen: int | None = None) -> Member:
         """Return a screened hypothesis with the prior that full fits give it, of so many directions at most."""
         if isinstance(scored.hypothesis, Learned):
-            # What has few splines on many axes is asked on all of them: a load's direction is in the sum.
-            shared = 1 if scored.hypothesis.variable.is_coarse else scored.hypothesis.components
+            # What has few splines on many axes is asked on all of them: a load's direction is in the sum. Six elements
+            # have their directions.
+            is_whole = scored.hypothesis.variable.is_coarse or scored.hypothesis.element == EACH
+            shared = 1 if is_whole else scored.hypothesis.components
             most = (most_seen or self.criteria.most_seen) // shared
             seen = scored.marginal.seen(self.criteria.least_seen, most)
             return Member(scored.hypothesis, seen, scored.marginal.size)

@@ -173,11 +173,23 @@ def as_one_cause(search: Search, members: Sequence[Member]) -> tuple[Member, ...
 
 
 def is_at_most(search: Search, trial: Trial) -> bool:
-    """Check that at most elements the last effect of a trial is more than a form of what it is at the others."""
+    """Check that at most elements the last effect of a trial is more than a form of what it is at the others.
+
+    Nor is it there with the sign that it cannot have: six drives that all lead, each by less than the limit of what is
+    refused, undo a part of a gauge that is read late.
+    """
     effect = _effect_of(trial.members[-1].hypothesis)
     every = _elements(trial.members[-1])
     least = search.criteria.form_variance * search.trials.size(trial, Known(effect, every))
-    return sum(search.trials.size(trial, Known(effect, (each,))) > least for each in every) >= FEWEST
+    wrong = _of_wrong_sign(search, trial, effect)
+    there = (each for each in every if each not in wrong)
+    return sum(search.trials.size(trial, Known(effect, (each,))) > least for each in there) >= FEWEST
+
+
+def _of_wrong_sign(search: Search, trial: Trial, effect: str) -> set[str]:
+    """Return the elements at which an effect of one sign has the other in a trial."""
+    info, values = search.engine.base.info(effect), zip(trial.model.parameters(), trial.model.values, strict=True)
+    return {p.element for p, value in values if p.effect == effect and is_one_sided(info, p.name) and value < 0.0}
 
 
 def is_of_several(hypothesis: Hypothesis) -> bool:

@@ -24,6 +24,7 @@ from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.trial import Member
 from hexdbb.learned import Learned, has_chosen_number, number_of
 from hexdbb.learned.numbered import NUMBERED
+from hexdbb.learned.places import EACH
 
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search
@@ -55,7 +56,8 @@ def retunings(search: Search, node: Node, member: Member) -> Iterator[Member]:
     hypothesis = member.hypothesis
     if not isinstance(hypothesis, Learned) or not hypothesis.variable.is_smooth:
         return
-    most = max(search.criteria.most_tuned - axes_of(node) + member.axes, search.criteria.most_seen)
+    of_one = search.criteria.most_of_each if hypothesis.element == EACH else search.criteria.most_tuned
+    most = max(of_one - axes_of(node) + member.axes, search.criteria.most_seen)
     scored = with_other_splines(search, around(search, node, member), hypothesis, node.trial.left, most)
     scored.sort(key=lambda each: each.log_evidence, reverse=True)
     # A free function of time predicts no other circle.
@@ -63,6 +65,17 @@ def retunings(search: Search, node: Node, member: Member) -> Iterator[Member]:
         alike = search.criteria.predicts_alike * min(each.heldout_left for each in scored)
         scored.sort(key=lambda each: max(each.heldout_left, alike))
     yield from (search.member(each, most) for each in scored)
+
+
+def more_splines(search: Search, node: Node, member: Member) -> Iterator[Member]:
+    """Yield a member's function with the multiples of its splines that are looked at at once, whatever each gains."""
+    function, criteria, readings = member.hypothesis, search.criteria, search.engine.readings
+    assert isinstance(function, Learned)
+    sums = Sums(around(search, node, member), readings, ("circle",))
+    screen = Screen(sums, criteria, search.thinned, criteria.tuned_penalties, max(node.trial.left - 1.0, 0.0))
+    for finer in varying([function.finer(times) for times in criteria.finer_at_once], readings):
+        if finer.size <= criteria.most_tuned:
+            yield search.member(screen.scored(finer), criteria.most_tuned)
 
 
 def axes_of(node: Node) -> int:

@@ -22,6 +22,7 @@ from hexdbb.evidence.node import Node
 from hexdbb.evidence.refine import finely_tuned
 from hexdbb.evidence.screen import may_be_finer_at_once
 from hexdbb.evidence.settling import predicts
+from hexdbb.evidence.several import is_of_several
 from hexdbb.evidence.signatures import varying
 from hexdbb.evidence.tuned import axes_of
 from hexdbb.learned import ALL, Learned, Variable
@@ -56,9 +57,10 @@ def or_at_two_elements(search: Search, node: Node) -> Node:
     ----------
     search : Search
     node : Node
-        Returned unchanged where it explains and predicts all but the noise, or nothing is learned.
+        Returned unchanged where it explains and predicts all but the noise, or nothing is learned; unless it is one
+        effect at all elements, which two of them may imitate: what drives have in common, geometry and delay nearly do.
     """
-    if not search.learns or needs_no_other(search, node):
+    if not search.learns or (needs_no_other(search, node) and not _is_at_more_elements(node)):
         return node
     pairs = best_pairs(search)
     worth = [each for each in pairs[:FITTED] if each.log_evidence >= NEAR * pairs[0].log_evidence]
@@ -75,8 +77,13 @@ def _stands_before(search: Search, pair: Node, node: Node) -> bool:
     if pair.trial.is_free_in_time and not (node.trial.is_free_in_time and axes_of(pair) <= axes_of(node)):
         return False  # two functions of time, with more values than what they replace, describe whatever drifts
     least = search.criteria.far_better if len(node.members) < len(pair.members) else 1.0
-    is_less = pair.trial.left - 1.0 < least * (node.trial.left - 1.0)
+    is_less = _is_at_more_elements(node) or pair.trial.left - 1.0 < least * (node.trial.left - 1.0)
     return is_less and predicts(search, pair) and needs_all(search, pair)
+
+
+def _is_at_more_elements(node: Node) -> bool:
+    """Check for one known effect at all elements, which are more than two."""
+    return len(node.members) == 1 and is_of_several(node.hypotheses[0])
 
 
 def _fitted(search: Search, pair: Pair) -> Node | None:

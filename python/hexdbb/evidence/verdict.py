@@ -8,6 +8,7 @@ from hexdbb.diagnosis import Sufficiency
 from hexdbb.evidence.admissible import Checked
 from hexdbb.evidence.as_forms import as_forms
 from hexdbb.evidence.beside import with_known_left
+from hexdbb.evidence.each_element import or_at_each_element
 from hexdbb.evidence.exchange import of_better_form, settled, with_found_beside
 from hexdbb.evidence.fine_enough import or_another_beside, or_one_fine_enough, or_one_place
 from hexdbb.evidence.further_elements import with_elements_that_predict
@@ -18,7 +19,12 @@ from hexdbb.evidence.one_cause import is_refined, left_without, without_borrowed
 from hexdbb.evidence.one_element import or_one_element
 from hexdbb.evidence.own_form import with_known_of_form
 from hexdbb.evidence.place import at_its_place, may_say
-from hexdbb.evidence.predicting import or_another_that_predicts, or_fewer_by_formulas, or_one_that_predicts
+from hexdbb.evidence.predicting import (
+    or_a_state_that_predicts,
+    or_another_that_predicts,
+    or_fewer_by_formulas,
+    or_one_that_predicts,
+)
 from hexdbb.evidence.refine import refined, refined_forms
 from hexdbb.evidence.rivals import rivals_of
 from hexdbb.evidence.same_state import or_at_another_place, or_at_the_rails
@@ -114,8 +120,8 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     if before.is_sufficient:
         return Verdict("none", (), search.root, None, before, refined_forms(search))
     searched = or_the_second_alone(search, search.run())
-    first = _in_sure_words(search, or_at_two_elements(search, searched))
-    other = or_another_that_predicts(search, first)
+    first = _in_sure_words(search, or_at_each_element(search, or_at_two_elements(search, searched)))
+    other = or_a_state_that_predicts(search, or_another_that_predicts(search, first))
     node = in_known_words(search, other)
     if other is not first:
         node = with_found_beside(search, node)

@@ -58,6 +58,8 @@ DRAGGED = tuple(along("velocity", each) for each in DIRECTIONS_DEG)
 OF_MOUNTED = (*OF_BAR, *OF_PATH, *OF_TIME, *DRAGGED)
 """States of what is mounted for the measurement: ball, cup, bar and gauge."""
 OF_ELEMENT = (*OF_CARRIAGE, *OF_JOINT, *OF_SWING, *OF_PATH, *OF_BAR, *OF_TIME, *OF_OTHER, v.NEIGHBOUR_VELOCITY)
+RINGING = (v.SINCE_REVERSAL, SINCE_REVERSAL_EACH_WAY)
+"""A drive that rings where it reverses couples into the gauge's cable."""
 OF_EACH_DRIVE = (v.POSITION, v.DIRECTION, v.VELOCITY, v.ACCELERATION, v.FORCE)
 
 _MOVING = (v.POSITION, v.VELOCITY, v.ACCELERATION, v.FORCE, v.DRIVE_LOAD, v.CARRIAGE_LOAD, v.JOINT_ANGLE, v.TURNING)
@@ -100,7 +102,7 @@ CROSSED |= {
     "platform_joint": _besides("platform_joint", OF_ELEMENT),
     "reading": _besides(
         "reading",
-        (*OF_MOUNTED, *of_drives(OF_EACH_DRIVE), *_products(FACTORS_OF_BAR, MULTIPLIED_OF_BAR)),
+        (*OF_MOUNTED, *of_drives((*OF_EACH_DRIVE, *RINGING)), *_products(FACTORS_OF_BAR, MULTIPLIED_OF_BAR)),
     ),
     **{
         place: _besides(

@@ -277,10 +277,11 @@ OF_GUIDEWAY = (
 OF_SLIDER_JOINT = (
     *(v.DIRECTION, v.DIRECTION_POSITION, v.TRAVEL, v.VELOCITY, v.ACCELERATION, v.CARRIAGE_LOAD, v.TIME_IN_SWEEP),
     *SCREW_WAVES,
+    *HEATED,
     POSITION_EACH_WAY,
 )
-"""Variables of one carriage that is pushed across its guideway: it tilts, floats or yields. What depends on the
-position alone is a fault of the rail, which both carriages of a guideway have."""
+"""Variables of one carriage that is pushed across its guideway: it tilts, floats or yields, or its nut warms it. What
+depends on the position alone is a fault of the rail, which both carriages of a guideway have."""
 OF_PLATFORM_JOINT = (v.DIRECTION, v.TRAVEL, v.FORCE, *COURSES_IN_PLATFORM)
 """Variables of a platform's joint that is loose, or soft, in whatever direction."""
 OF_PAIR_OF_JOINTS = (v.ANGLE, v.ANGLE_DIRECTION, v.CIRCLE_DIRECTION, v.SPEED, *COURSES_IN_PLATFORM)
@@ -349,6 +350,7 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
         *HEATED_THERE,
         *LEG_DIRECTIONS,
         JOINT_ANGLE_EACH_WAY,
+        v.TURNED,  # a leg turns in its thread as the platform circles
     ),
     "lateral": OF_RAIL,
     "vertical": OF_RAIL,

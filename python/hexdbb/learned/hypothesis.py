@@ -18,6 +18,7 @@ from hexdbb.learned.places import (
     ALL,
     AXES,
     COMPONENTS,
+    EACH,
     KINDS,
     LEVER,
     LEVERS,
@@ -133,7 +134,7 @@ class Learned:
     def of_each(self) -> tuple[Learned, ...]:
         """The same function of each element that a pair has, alone; none where it is no pair."""
         elements = members(self.element)
-        return tuple(replace(self, element=each) for each in elements) if len(elements) > 1 else ()
+        return tuple(replace(self, element=each) for each in elements) if len(elements) == 2 else ()
 
     @property
     def after_each_fixing(self) -> Learned | None:
@@ -208,7 +209,9 @@ class Learned:
 
     @property
     def components(self) -> int:
-        """Number of axes along which it pushes: more than one where the direction is not known."""
+        """Number of axes along which it pushes, where the direction is not known, or of elements, each by its own."""
+        if self.element == EACH:
+            return len(members(EACH))
         return 1 if self.variable.is_vector else COMPONENTS.get(self.place, 1)
 
     @property
@@ -230,8 +233,10 @@ class Learned:
         return self.variable.all_times[function % self.variable.ways]
 
     def axis_name(self, function: int) -> str:
-        """Name of the axis along which a function, from 0, pushes; empty where there is one axis only."""
+        """Name of the axis along which a function, from 0, pushes, or of its element; empty where there is one only."""
         component = self.component_of(function)
+        if self.element == EACH:
+            return str(members(EACH)[component])
         if self.place in LEVERS:
             return self.lever(component).removeprefix(LEVER)
         return AXES.get(self.place, "xyz")[component] if self.components > 1 else ""
@@ -287,11 +292,12 @@ class Learned:
             axes = range(AXES_OF_VECTOR)
             return tuple((axis, tuple((first + 3 * each + axis, 1.0) for each in self._pushed)) for axis in axes)
         if self.place in SHARED:
-            return tuple((self._by(each), ((first + each, 1.0),)) for each in self._pushed)
-        pushed = ((each, self._axis(component, each, machine)) for each in self._pushed)
+            pushed = self._pushed if self.element != EACH else self._pushed[component : component + 1]
+            return tuple((self._by(each), ((first + each, 1.0),)) for each in pushed)
+        along = ((each, self._axis(component, each, machine)) for each in self._pushed)
         return tuple(
             (self._by(each), tuple((first + 3 * each + k, weight) for k, weight in enumerate(axis) if weight != 0.0))
-            for each, axis in pushed
+            for each, axis in along
         )
 
     def _axis(self, component: int, pushed: int, machine: Directed) -> tuple[float, float, float]:

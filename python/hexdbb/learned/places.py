@@ -15,6 +15,8 @@ PREFIX = "learned"
 ALL = 0
 """Element number of a function that all elements share, or of a place that has one element only."""
 WHOLE = "all"
+EACH, APART = 123456, "each"
+"""Number and name of six elements of which each has a function of its own: legs that the sun warms from one side."""
 PAIRS = {"1-2": 12, "3-4": 34, "5-6": 56}
 """Elements that share a guideway and a platform's joint, and with them a function: names, and their numbers."""
 
@@ -90,7 +92,8 @@ def elements_by_name(place: str) -> dict[str, int]:
     numbers = {str(each): each for each in range(1, 1 + ELEMENTS.get(place, 0))}
     pairs = PAIRS if place in further.OF_PAIRS else {}
     whole = {WHOLE: ALL} if numbers and (place in SHARED or place in further.OF_WHOLE) else {}
-    return numbers | pairs | whole
+    apart = {APART: EACH} if place in SHARED else {}
+    return numbers | pairs | whole | apart
 
 
 def members(element: int) -> tuple[int, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexdbb.learned.hypothesis import Learned
-from hexdbb.learned.places import ALL, AXES, LEVERS, PAIRS
+from hexdbb.learned.places import ALL, AXES, EACH, LEVERS, PAIRS
 from hexdbb.learned.tables import Curve
 from hexdbb.learned.words import UM_PER_MM, describe, shown_places
 
@@ -35,6 +35,10 @@ ALL_OF = {
     "leg": "length of all legs",
     "lateral": "all guideways, outward",
 }
+EACH_OF = {
+    "slider": "sliders along their guideways, each in its own way",
+    "leg": "lengths of legs, each in its own way",
+}
 ACROSS = {"x": ", sideways", "z": ", up and down"}
 """Axes of a guideway in words."""
 SORTS = {"pull": ", a pull along {}", "turn": ", a couple about {}"}
@@ -44,6 +48,8 @@ SORTS = {"pull": ", a pull along {}", "turn": ", a couple about {}"}
 def place_words(hypothesis: Learned, function: int = 0) -> str:
     """Return where a function pushes, in words."""
     axis = hypothesis.axis_name(function)
+    if hypothesis.element == EACH:
+        return PLACES[hypothesis.place].format(axis)
     if hypothesis.place in LEVERS:
         sort, _, about = axis.partition("_")
         return whole_place_words(hypothesis) + SORTS[sort].format(about)
@@ -53,6 +59,8 @@ def place_words(hypothesis: Learned, function: int = 0) -> str:
 
 def whole_place_words(hypothesis: Learned) -> str:
     """Return the same without the axis of one of its functions."""
+    if hypothesis.element == EACH:
+        return EACH_OF[hypothesis.place]
     if hypothesis.element == ALL and hypothesis.place in ALL_OF:
         return ALL_OF[hypothesis.place]
     if hypothesis.element_name in PAIRS:

@@ -32,8 +32,11 @@ three intervals."""
 POINTS_PER_SPLINE = 3
 SIGN_POINTS = (-3.0, -2.5, -2.0, -1.5, -1.25, -1.0, -0.75, -0.5, -0.25, 0.0)
 """Further points about a step, in its widths, on either side: lines between them miss tanh by 2 % at most."""
-SAMPLES_PER_SPLINE = 5
+SAMPLES_PER_SPLINE = 7
 """Fewest different samples per spline: fewer leave some splines to the prior alone."""
+SAMPLES_PER_SPLINE_OF_TURN = 3
+"""The same of what repeats: turns are driven evenly, and every turn is read at the same places, where a record has a
+reading every half degree. A step between two sectors is then seen with 192 splines, as it is along a rail."""
 SMALLEST_RANGE = 1e-9
 """Relative range below which a variable is constant but for rounding."""
 
@@ -88,7 +91,8 @@ class Space:
             least = max(variable.least, SMALLEST_RANGE * max(-seen.lowest, seen.highest, 1.0))
             if seen.is_known and seen.highest - seen.lowest <= least:
                 raise InputError(f"{name}: {variable.column} hardly varies in these samples (expected it to vary)")
-            enough = SAMPLES_PER_SPLINE * (variable.count if variable.count > 1 else 0) + 2 * variable.count
+            each = SAMPLES_PER_SPLINE_OF_TURN if period else SAMPLES_PER_SPLINE
+            enough = (each if variable.count > 1 else 2) * variable.count
             if seen.different < enough:
                 raise InputError(f"{name}: {variable.column} has {seen.different} different values (expected more)")
             if variable.signed:

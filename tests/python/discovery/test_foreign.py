@@ -30,10 +30,10 @@ TRUTH = {
     "joint-friction-10x": "joint_friction:2",
 }
 NUMBERS = {"rail-warms": 470.4, "fan-cools": 16.0, "nut-heats": 304.0, "cover-jams": 2.5}
-NUMBERS |= {"motor-heats-foot": 94.6, "end-heats-leg": 18.26}
+NUMBERS |= {"legs-breathe": 702.0, "nut-lifts": 190.0, "motor-heats-foot": 94.6, "end-heats-leg": 18.26}
 NUMBERS |= {"column-sways": 430.0, "mains-hums": 1.0 / 49.963, "post-shakes": 1.0 / 4.63}
 """True value of the number in the name of the cause, by record: s or mm."""
-DIRECTION_DEG = {"hose-pulls": (40.1, 3.0)}
+DIRECTION_DEG = {"hose-pulls": (40.1, 3.0), "foot-rocks": (70.0, 1.0)}
 """The same of a direction, and how near: the hose's pull turns with the platform, which no function has, and which
 moves the best direction by two degrees, a fifteenth of what lies between two that are tried."""
 
@@ -275,6 +275,18 @@ def test_leads_of_both_screws_of_a_guideway_are_two_leads() -> None:
             "learned:reading:deflection_since_turn_by_deflection",
             {"circle", "feed", "direction", "lap"},
         ),
+        # Six legs that swing with the room, each by its own amount: the cup, in three directions, said most.
+        ("legs-breathe", "learned:leg:each:time_period@", {"circle", "feed", "direction", "lap"}),
+        # Six balls of thirteen lobes: no leg alone shows them, and with a dozen splines all six hardly do.
+        ("balls-lobed", "learned:leg:each:joint_angle", {"circle", "feed", "direction", "lap"}),
+        # A base that rocks as the platform passes a line: with few splines directions beside the true one fit best.
+        ("foot-rocks", "learned:cup:position_along@", {"circle", "feed", "direction", "lap"}),
+        # A cable that winds up and pulls the stand along one direction: the reading, by many values, said as much.
+        ("cable-pulls", "learned:cup:turned", {"circle", "feed", "lap"}),
+        # A nut whose heat lifts the carriage: a free function of time, of 320 splines, had more evidence than the law.
+        ("nut-lifts", "learned:slider_joint:3:velocity_lingering@", {"circle", "feed", "direction", "lap"}),
+        # A leg that turns in its thread as the platform circles: two functions of the reading said most of it.
+        ("leg-unscrews", "learned:leg:5:turned", {"circle", "feed"}),
         # A motor heats the leg's foot by its own motion: a function of time, which says nothing of another time.
         ("motor-heats-foot", "learned:leg:5:velocity_lingering@", {"circle", "feed", "direction", "lap"}),
         # A leg that is warmed where its slider stands near the guideway's end: a load of the drive, as it was before.
@@ -398,6 +410,23 @@ def test_a_delay_that_scatters_is_a_delay() -> None:
     found = found_in("delay-scatters")
     assert found.verdict == "effect"
     assert [each.choice for each in found.causes] == ["sample_delay"]
+
+
+@pytest.mark.long
+def test_a_delay_that_swings_is_no_drives_that_lead_besides() -> None:
+    """Each by less than what is refused as negative: what six of them do together, a longer delay undoes."""
+    found = found_in("delay-swings")
+    assert found.verdict == "effect"
+    assert [each.choice for each in found.causes] == ["sample_delay"]
+
+
+@pytest.mark.long
+def test_two_drives_that_hang_back_are_not_six() -> None:
+    """By the velocity, each in its own way: six lags say it as well, since what they have in common is hardly seen."""
+    found = found_in("drives-hang-back")
+    assert found.verdict == "unknown"
+    names = {each.choice.partition("_turning@")[0] for each in found.causes}
+    assert names == {"servo_lag:4", "learned:slider:6:velocity"}
 
 
 @pytest.mark.long

@@ -9,7 +9,7 @@ import pytest
 from hexdbb import _core
 from hexdbb.errors import InputError
 from hexdbb.learned import Learned, crossed_hypotheses, further_hypotheses, hypotheses, products
-from hexdbb.learned.shown import place_words
+from hexdbb.learned.shown import place_words, whole_place_words
 from hexdbb.machine import MachineFile
 from hexdbb.plan import load_plan
 
@@ -58,6 +58,19 @@ def test_a_guideway_pushes_both_joints_outward_and_up() -> None:
         "guideway 1, sideways",
         "guideway 1, up and down",
     ]
+
+
+def test_six_elements_each_have_a_function_of_their_own() -> None:
+    learned = Learned.parse("learned:leg:each:leg_force")
+    first = _core.PORTS["leg"][0]
+    assert learned.components == 6
+    assert [learned.pushes(each, MACHINE) for each in range(6)] == [
+        ((each, ((first + each, 1.0),)),) for each in range(6)
+    ]
+    assert place_words(learned, 3) == "length of leg 4"
+    assert whole_place_words(learned) == "lengths of legs, each in its own way"
+    assert learned.name == "learned:leg:each:leg_force"
+    assert not learned.of_each  # six alone are no pair
 
 
 def test_the_joint_of_one_slider_is_pushed_across_its_own_guideway() -> None:
@@ -131,6 +144,8 @@ def test_a_number_is_moved_and_stays_in_the_name() -> None:
         ("learned:leg:3:time", "leg", 12, False),
         ("learned:leg:1-2:time", "leg", 1, False),
         ("learned:leg:1-2:time", "leg", 12, True),
+        ("learned:leg:each:time", "leg", 0, True),
+        ("learned:leg:each:time", "leg", 3, False),
         ("learned:vertical:2:leg_force", "guideway", 2, True),
         ("learned:slider:1:time", "leg", 1, False),
     ],
@@ -142,7 +157,7 @@ def test_what_acts_within_what(one: str, place: str, element: int, expected: boo
 @pytest.mark.parametrize(
     ("name", "said"),
     [
-        ("learned:leg:1-3:time", "element '1-3' (expected one of 1, 2, 3, 4, 5, 6, 1-2, 3-4, 5-6, all)"),
+        ("learned:leg:1-3:time", "element '1-3' (expected one of 1, 2, 3, 4, 5, 6, 1-2, 3-4, 5-6, all, each)"),
         ("learned:leg:1:leg_force_lagged@-2", "variable 'leg_force_lagged@-2' (expected one of position"),
         ("learned:slider:1:acceleration_along@30", "variable 'acceleration_along@30' (expected one of position"),
         ("learned:ball:position_along@30", "variable 'position_along@30' (expected one of time"),

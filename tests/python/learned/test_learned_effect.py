@@ -182,7 +182,7 @@ def test_it_cannot_be_added_twice(found: Diagnosis) -> None:
     ("name", "said"),
     [
         ("learned:wheel:1:time", "place 'wheel' (expected learned:PLACE, one of slider, leg"),
-        ("learned:leg:7:time", "element '7' (expected one of 1, 2, 3, 4, 5, 6, 1-2, 3-4, 5-6, all)"),
+        ("learned:leg:7:time", "element '7' (expected one of 1, 2, 3, 4, 5, 6, 1-2, 3-4, 5-6, all, each)"),
         ("learned:leg:5:heat", "variable 'heat' (expected one of position"),
         ("learned:leg:5:warming", "warming_k has 0 different values (expected more)"),
         ("learned:vertical:all:position", "element 'all' (expected one of 1, 2, 3)"),
@@ -293,6 +293,30 @@ def test_drafts_of_a_load_share_it_among_the_legs(tmp_path: Path, planned: Sampl
     theirs = effect.tabulated(planned).pushes(rows) @ model.values
     assert np.abs(theirs).max() > 1e-3
     assert ours == pytest.approx(theirs, abs=1e-3 * float(np.abs(theirs).max()))
+
+
+def test_drafts_of_six_elements_push_one_each(tmp_path: Path, planned: Samples) -> None:
+    name = "learned:slider:each:position"
+    effect = LearnedEffect(Space.of(Learned.parse(name), planned, LEAD_MM), 0.1, 0.01)
+    model = new_model(planned.machine, []).knowing_effects([effect]).with_effect(Choice.parse(name))
+    points = effect.space.points()
+    line = np.linalg.lstsq(effect.space.functions(points) @ effect.factor, 1e-4 * points, rcond=None)[0]
+    model = model.with_values(np.kron([1.0, -2.0, 3.0, 0.5, 1.5, -1.0], line))
+    path = tmp_path / "draft.py"
+    path.write_text(draft(model, name))
+    drafted, rows = load_effects(path), np.arange(len(planned))
+    assert [each.name[-2:] for each in drafted] == [f"_{each}" for each in range(1, 7)]
+    lines = (line for line in path.read_text().splitlines() if "As learned" in line)
+    heights_mm = [float(line.split()[5]) for line in lines]
+    ours = sum(
+        each.tabulated(planned).pushes(rows)[:, :, 0] * height_mm
+        for each, height_mm in zip(drafted, heights_mm, strict=True)
+    )
+    theirs = effect.tabulated(planned).pushes(rows) @ model.values
+    assert np.count_nonzero(np.abs(theirs).max(axis=0) > 1e-3) == 6
+    assert ours == pytest.approx(theirs, abs=1e-3 * float(np.abs(theirs).max()))
+    tables = effect.tables(model.values, planned.machine)
+    assert [table.pushes[0][0] for table in tables] == [0, 1, 2, 3, 4, 5]
 
 
 def test_tables_for_a_compensation_are_the_function(planned: Samples) -> None:
