@@ -134,7 +134,9 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     node = or_one_that_predicts(search, or_fewer_by_formulas(search, with_elements_that_predict(search, node)))
     node = with_turning(search, with_tuned_numbers(search, node))
     node = or_another_beside(search, node)
-    fine = or_at_the_rails(search, or_at_another_place(search, or_one_fine_enough(search, node)))
+    # What its slider's place says of a leg, the joint of the slider says as well: the rail is asked before and after.
+    fine = or_at_the_rails(search, or_one_fine_enough(search, node))
+    fine = or_at_the_rails(search, or_at_another_place(search, fine))
     node = with_known_left(search, node if fine is node else in_known_words(search, fine))
     if (forms := as_forms(search, node)) is not None:
         return Verdict("none", (), search.root, None, before, forms)

@@ -281,6 +281,8 @@ def test_leads_of_both_screws_of_a_guideway_are_two_leads() -> None:
         ("balls-lobed", "learned:leg:each:joint_angle", {"circle", "feed", "direction", "lap"}),
         # A base that rocks as the platform passes a line: with few splines directions beside the true one fit best.
         ("foot-rocks", "learned:cup:position_along@", {"circle", "feed", "direction", "lap"}),
+        # Drives that take the lead in turn, with a step between: the cup, along three axes, said as much.
+        ("sectors-step", "learned:reading:fine_bar_azimuth", {"circle", "feed", "direction", "lap"}),
         # A cable that winds up and pulls the stand along one direction: the reading, by many values, said as much.
         ("cable-pulls", "learned:cup:turned", {"circle", "feed", "lap"}),
         # A nut whose heat lifts the carriage: a free function of time, of 320 splines, had more evidence than the law.
