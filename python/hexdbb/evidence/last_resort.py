@@ -26,9 +26,6 @@ if TYPE_CHECKING:
 TUNED = 2
 """Sets that are tuned before they are left, by several full fits each: both sliders of a guideway may say the same."""
 
-FINE = "fine_"
-"""How names of variables begin that have more splines than another of the same column."""
-
 Screened = Callable[["Search", Trial, Screen], list[Scored]]
 
 

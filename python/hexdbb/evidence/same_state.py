@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from hexdbb.evidence.last_resort import FINE, axes_along, state_of
+from hexdbb.evidence.last_resort import axes_along, state_of
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.refine import finely_tuned
 from hexdbb.evidence.screen import Scored
@@ -23,6 +23,8 @@ from hexdbb.learned.places import OF_GUIDEWAY
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search
 
+FINE = "fine_"
+"""How names of variables begin that have more splines than another of the same column: one state."""
 TRIED = 3
 """Places tuned by several full fits each: a leg's joints at the slider and the platform say nearly the same."""
 
