@@ -271,19 +271,21 @@ def test_a_draft_pushes_what_was_learned(
     assert np.abs(ours - theirs).max() < 2.0 * float(np.median(curve.sigma_mm))
 
 
-def test_drafts_of_a_load_share_it_among_the_legs(tmp_path: Path, planned: Samples) -> None:
-    name = "learned:load:position_along@40"
+def drafts_of_six(path: Path, planned: Samples, name: str) -> tuple[list[str], LearnedEffect, np.ndarray, np.ndarray]:
+    """Draft a function of six components that differ in size, and check that the drafts push what it pushes.
+
+    Returns
+    -------
+    list of str, LearnedEffect, ndarray, ndarray
+        The drafts' names, the effect, its values, what it pushes.
+    """
     effect = LearnedEffect(Space.of(Learned.parse(name), planned, LEAD_MM), 0.1, 0.01)
     model = new_model(planned.machine, []).knowing_effects([effect]).with_effect(Choice.parse(name))
     points = effect.space.points()
     line = np.linalg.lstsq(effect.space.functions(points) @ effect.factor, 1e-4 * points, rcond=None)[0]
     model = model.with_values(np.kron([1.0, -2.0, 3.0, 0.5, 1.5, -1.0], line))
-    path = tmp_path / "draft.py"
     path.write_text(draft(model, name))
     drafted, rows = load_effects(path), np.arange(len(planned))
-    assert [each.name.rpartition("40_")[2] for each in drafted] == [
-        f"{how}_{axis}" for how in ("pull", "turn") for axis in "xyz"
-    ]
     lines = (line for line in path.read_text().splitlines() if "As learned" in line)
     heights_mm = [float(line.split()[5]) for line in lines]
     ours = sum(
@@ -293,29 +295,21 @@ def test_drafts_of_a_load_share_it_among_the_legs(tmp_path: Path, planned: Sampl
     theirs = effect.tabulated(planned).pushes(rows) @ model.values
     assert np.abs(theirs).max() > 1e-3
     assert ours == pytest.approx(theirs, abs=1e-3 * float(np.abs(theirs).max()))
+    return [each.name for each in drafted], effect, model.values, theirs
+
+
+def test_drafts_of_a_load_share_it_among_the_legs(tmp_path: Path, planned: Samples) -> None:
+    names, *_ = drafts_of_six(tmp_path / "draft.py", planned, "learned:load:position_along@40")
+    assert [each.rpartition("40_")[2] for each in names] == [
+        f"{how}_{axis}" for how in ("pull", "turn") for axis in "xyz"
+    ]
 
 
 def test_drafts_of_six_elements_push_one_each(tmp_path: Path, planned: Samples) -> None:
-    name = "learned:slider:each:position"
-    effect = LearnedEffect(Space.of(Learned.parse(name), planned, LEAD_MM), 0.1, 0.01)
-    model = new_model(planned.machine, []).knowing_effects([effect]).with_effect(Choice.parse(name))
-    points = effect.space.points()
-    line = np.linalg.lstsq(effect.space.functions(points) @ effect.factor, 1e-4 * points, rcond=None)[0]
-    model = model.with_values(np.kron([1.0, -2.0, 3.0, 0.5, 1.5, -1.0], line))
-    path = tmp_path / "draft.py"
-    path.write_text(draft(model, name))
-    drafted, rows = load_effects(path), np.arange(len(planned))
-    assert [each.name[-2:] for each in drafted] == [f"_{each}" for each in range(1, 7)]
-    lines = (line for line in path.read_text().splitlines() if "As learned" in line)
-    heights_mm = [float(line.split()[5]) for line in lines]
-    ours = sum(
-        each.tabulated(planned).pushes(rows)[:, :, 0] * height_mm
-        for each, height_mm in zip(drafted, heights_mm, strict=True)
-    )
-    theirs = effect.tabulated(planned).pushes(rows) @ model.values
-    assert np.count_nonzero(np.abs(theirs).max(axis=0) > 1e-3) == 6
-    assert ours == pytest.approx(theirs, abs=1e-3 * float(np.abs(theirs).max()))
-    tables = effect.tables(model.values, planned.machine)
+    names, effect, values, pushed = drafts_of_six(tmp_path / "draft.py", planned, "learned:slider:each:position")
+    assert [each[-2:] for each in names] == [f"_{each}" for each in range(1, 7)]
+    assert np.count_nonzero(np.abs(pushed).max(axis=0) > 1e-3) == 6
+    tables = effect.tables(values, planned.machine)
     assert [table.pushes[0][0] for table in tables] == [0, 1, 2, 3, 4, 5]
 
 
