@@ -19,8 +19,8 @@ CLAUSES = {
     "lead_error": "the screw of {who} has a lead too long by {lead}",
     "straightness": "{who} is bowed by {lateral} outward and {vertical} up",
     "servo_lag": "{who} lags {lag} behind its drive's encoder",
-    "leg_thermal": "the legs grow during the test",
-    "screw_thermal": "the screw of {who} grows during the test",
+    "leg_thermal": "the legs {grow} during the test",
+    "screw_thermal": "the screw of {who} {grow}s during the test",
     "gravity_sag": "the legs give by {compliance} under the platform's weight",
     "joint_offset": "the ball centre of {who} misses its joint centre by {x}, {y} and {z}",
     "joint_friction": "friction in the joints of {who} changes its length by {deflection} against their turning",
@@ -30,7 +30,7 @@ CLAUSES = {
     "ball_rotation": "the ball's holder, or the triangle of joints, is turned by {about_x}, {about_y} and {about_z}",
     "ball_eccentricity": "the bar's ball sits otherwise in set-up {element}: by {x}, {y} and {z}",
 }
-"""Clause on one element; `who` is the element, the other names are values with uncertainty and unit."""
+"""Clause on one element; `who` is the element, `grow` or shrink by the sign, the others are values with uncertainty."""
 MAX_CLAUSES = 2
 """Elements told one by one; of further ones the number: a sentence remains one."""
 
@@ -72,7 +72,8 @@ def _clause(info: _core.EffectInfo, element: str, sizes: Sequence[Size]) -> str:
     who = "the machine" if info.element_kind == "machine" else f"{info.element_kind} {element}"
     values = {size.name: size_words(size) for size in sizes}
     if info.name in CLAUSES:
-        return CLAUSES[info.name].format(who=who, element=element, **values)
+        grow = "shrink" if sizes[_telling([(element, sizes)])].value < 0.0 else "grow"
+        return CLAUSES[info.name].format(who=who, element=element, grow=grow, **values)
     physics = info.physics.split(". ")[0].split(": ")[0].rstrip(".")
     told = ", ".join(f"{name} {value}" for name, value in values.items())
     return f"{info.name} of {who} ({physics[:1].lower()}{physics[1:]}): {told}"

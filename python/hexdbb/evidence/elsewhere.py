@@ -22,7 +22,10 @@ INSTRUMENT = frozenset({"reading", "ball", "cup"})
 
 
 def rivals_elsewhere(search: Search, node: Node, cause: Known, alike: Sequence[str]) -> list[str]:
-    """Return sets in which a learned function elsewhere stands for a cause, with more evidence.
+    """Return sets in which a learned function elsewhere stands for a cause, with no less evidence.
+
+    Of some hundred known effects of other forms the nearest such set had 220 nats less; that a cup creeps had 2 more
+    than a screw that cools, which was named for sure.
 
     Parameters
     ----------
@@ -38,9 +41,9 @@ def rivals_elsewhere(search: Search, node: Node, cause: Known, alike: Sequence[s
     found = []
     for other in search.nodes:
         lead = (other.score - node.score) / max(node.trial.left, 1.0)
-        more = lead > search.criteria.margin_nats and len(other.members) <= len(node.members)
+        is_close = lead > -search.criteria.margin_nats and len(other.members) <= len(node.members)
         stands_in = cause not in other.hypotheses and not elsewhere.isdisjoint(other.trial.names)
-        if stands_in and more and not (other.trial.refused or search.checked(other).reasons):
+        if stands_in and is_close and not (other.trial.refused or search.checked(other).reasons):
             found.append(" + ".join(other.trial.names))
     return found
 

@@ -98,6 +98,8 @@ def _says_as_much(search: Search, node: Node, than: Node, learned: Learned) -> b
     """
     if _is_by_form(search, node, learned) and not is_doubtful(search, than):
         return False
+    if _is_elsewhere(search, node, learned) and than.score - node.score > search.criteria.margin_nats:
+        return False
     if _leaves_more(search, node, than, learned):
         return False
     if than.trial.is_of_time:
@@ -116,6 +118,16 @@ def _is_by_form(search: Search, node: Node, learned: Learned) -> bool:
         return False
     is_other = form.deviation > search.criteria.form_named or not acts_there(search, known, learned)
     return is_other and explained_by_formulas(search, node) < search.criteria.formula_names
+
+
+def _is_elsewhere(search: Search, node: Node, learned: Learned) -> bool:
+    """Check for one known effect that acts elsewhere than a function does, so that its form is no excuse.
+
+    The ball of one leg's joint has lobes; the joint off its place, of this leg or of the other in the pair, said nearly
+    all of it by functions of its form.
+    """
+    known, *others = node.hypotheses
+    return not others and isinstance(known, Known) and not acts_there(search, known, learned)
 
 
 def acts_there(search: Search, known: Known, learned: Learned) -> bool:

@@ -8,7 +8,7 @@ relative to the best, is the hypothesis' log prior.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -19,11 +19,15 @@ from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.proposals import InTime, Proposal
 from hexdbb.evidence.readings import Linear, Readings
 from hexdbb.evidence.thinned import Thinned
-from hexdbb.learned import Learned, two_states
-from hexdbb.learned.further import RELAYS
+from hexdbb.learned import ALL, Learned, is_directed, two_states
+from hexdbb.learned.further import DIRECTIONS_DEG, RELAYS
+from hexdbb.learned.numbered import HALF_TURN_DEG, number_of
+from hexdbb.learned.places import elements_by_name
 from hexdbb.samples.two_states import two_states as states_of
 
 Floats = NDArray[np.float64]
+Pair = tuple[float, float]
+"""Lower and higher number."""
 
 LEVELS = 12
 """Levels of a variable that are tried first, evenly between its extremes: of a state they place the ends to a 26th
@@ -35,6 +39,8 @@ ROUNDS, FINER, EITHER_SIDE = 7, 2, 3
 """Rounds about the best pair, how much finer the levels of each are, and how many are tried on either side of each of
 its numbers: one and a half of the distance before, since a gain with so many jumps has more than one maximum. In the
 end they are a thousandth of the range apart, less than what a variable changes from one reading to the next."""
+FINEST_DEG = 1.0
+"""Steps of a direction end below it: a circle turns as far within some sixty readings, a sixth of a second."""
 
 
 def relays(linear: Linear, readings: Readings, criteria: Criteria) -> list[Proposal]:
@@ -55,10 +61,11 @@ def relays(linear: Linear, readings: Readings, criteria: Criteria) -> list[Propo
     tried = [(few.best_of_all(each), each) for each in _all() if not each.variable.needs & readings.state.unmeasured]
     worth = sorted((each for each in tried if each[0].worth > criteria.detect_nats), key=lambda each: -each[0].worth)
     whole, found = _Rows(linear, readings, criteria), []
-    for best, of in worth[: criteria.full_fits]:
+    for best, of in _one_direction_each(worth)[: criteria.full_fits]:
         if best.worth < NEAR * worth[0][0].worth:
             break
-        gain, pair = whole.refined(of, best.pair)
+        of, pair = few.turned(of, best.pair) if is_directed(of.variable) else (of, best.pair)
+        gain, pair = whole.refined(of, pair)
         found.append((gain, Proposal(replace(of, variable=two_states(of.variable, *pair)), best.log_prior)))
     return [each for _, each in sorted(found, key=lambda each: -each[0])]
 
@@ -66,8 +73,18 @@ def relays(linear: Linear, readings: Readings, criteria: Criteria) -> list[Propo
 def _all() -> Iterator[Learned]:
     """Yield functions of what may have two states, at all elements."""
     for place, variables in RELAYS.items():
+        elements = [each for each in elements_by_name(place).values() if each in range(1, 7)] or [ALL]
         for variable in variables:
-            yield from (Learned(place, element, variable) for element in range(1, 7))
+            yield from (Learned(place, element, variable) for element in elements)
+
+
+def _one_direction_each(ranked: Sequence[tuple[_Best, Learned]]) -> list[tuple[_Best, Learned]]:
+    """Return, of several directions of a vector at a place, the best one; all else as it was."""
+    first: dict[tuple[str, str], tuple[_Best, Learned]] = {}
+    for each in ranked:
+        of = each[1]
+        first.setdefault((of.place, of.variable.unit) if is_directed(of.variable) else (of.name, ""), each)
+    return list(first.values())
 
 
 class _Best(NamedTuple):
@@ -75,7 +92,7 @@ class _Best(NamedTuple):
 
     worth: float
     log_prior: float
-    pair: tuple[float, float]
+    pair: Pair
 
 
 class _Rows:
@@ -97,7 +114,7 @@ class _Rows:
         cost = 0.5 * of.components * float(np.log(len(values)))  # Schwarz (1978), as of steps
         return _Best(float(gains[best]) + spread - cost, spread, (float(low[best]), float(high[best])))
 
-    def refined(self, of: Learned, pair: tuple[float, float]) -> tuple[float, tuple[float, float]]:
+    def refined(self, of: Learned, pair: Pair) -> tuple[float, Pair]:
         """Return what the best pair of finer levels about one gains, and the pair."""
         gain = 0.0
         step = float(np.ptp(self._values(of))) / (LEVELS + 1)
@@ -111,8 +128,24 @@ class _Rows:
             gain, pair = float(gains[best]), (float(low[best]), float(high[best]))
         return gain, pair
 
+    def turned(self, of: Learned, pair: Pair) -> tuple[Learned, Pair]:
+        """Return the best direction about that of a vector's part, and the best pair of levels there."""
+        step, gain = DIRECTIONS_DEG[0], self.refined(of, pair)[0]
+        while step > FINEST_DEG:
+            step /= FINER
+            about = number_of(of.variable)
+            for turn in (-step, step):
+                other = of.with_number((about + turn) % HALF_TURN_DEG or HALF_TURN_DEG)
+                # Beyond half a turn the same part has the other sign.
+                begun = pair if 0.0 < about + turn <= HALF_TURN_DEG else (-pair[1], -pair[0])
+                other_gain, other_pair = self.refined(other, begun)
+                if other_gain > gain:
+                    gain, of, pair = other_gain, other, other_pair
+        return of, pair
+
     def _values(self, of: Learned) -> Floats:
-        found: Floats = self._readings.state[of.variable.column][self._in_time.order, of.element - 1]
+        values = self._readings.state[of.variable.column][self._in_time.order]
+        found: Floats = values if values.ndim == 1 else values[:, of.element - 1]
         return found
 
     def _gains(self, of: Learned, low: Floats, high: Floats) -> Floats:

@@ -377,8 +377,11 @@ RELAYS: dict[str, tuple[Variable, ...]] = {
     "leg": (v.FORCE, v.JOINT_ANGLE),
     "slider_joint": (v.POSITION, v.JOINT_ANGLE),
     "platform_joint": (v.FORCE, v.PLATFORM_JOINT_ANGLE),
+    "cup": LEANING,
+    "ball": SINKING[1:],
 }
-"""Variables by place, at whose values a stop, a seat or a spring may give way, so that there are two states."""
+"""Variables by place, at whose values a stop, a seat or a spring may give way, so that there are two states: a frame
+tips on a loose foot, a stem falls over to the other side."""
 OF_PAIRS: dict[str, tuple[Variable, ...]] = {
     "slider": OF_PAIR_OF_SLIDERS,
     "leg": OF_PAIR_OF_LEGS,

@@ -9,7 +9,7 @@ changed (`joint_angle_relaxing@12`, the variable less the same lag), functions w
 its angle in degrees), a vector's part along a direction (`acceleration_along@45`, degrees in the x-y plane), and
 a function whose sign changes smoothly with the direction of motion, as friction does (`direction_position_turning@0.5`,
 transition rate in mm/s or rad/s), and two states, of which one begins where a variable rises to a number and the other
-where it falls to a lower one (`leg_force_relay@7.1/14.5`).
+where it falls to a lower one (`leg_force_relay@7.1/14.5`, `position_along@35_relay@-8/11`).
 """
 
 from __future__ import annotations
@@ -211,7 +211,7 @@ def at_once(times: str) -> str:
 
 def is_directed(variable: Variable) -> bool:
     """Whether a variable is a vector's part along a direction that the readings chose."""
-    return f"{OF_MEMORY}{ALONG}@" in variable.column
+    return f"{OF_MEMORY}{ALONG}@" in variable.column and not is_relay(variable)
 
 
 def turns_gradually(times: str) -> bool:
@@ -284,14 +284,16 @@ def numbered(name: str, variables: Sequence[Variable]) -> Variable | None:
     variables : sequence of Variable
         Those at the place, of which it may remember one.
     """
-    kind, _, numbers = name.partition("@")
+    of, relay, _ = name.rpartition(f"_{RELAY}{NUMBERED}")
+    kind = f"{of}_{RELAY}" if relay else name.partition(NUMBERED)[0]
+    numbers = name.removeprefix(f"{kind}{NUMBERED}")
     if not re.fullmatch(r"-?\d+(\.\d+)?(e[+-]?\d+)?(/-?\d+(\.\d+)?(e[+-]?\d+)?)*", numbers):
         return None
     values = [float(each) for each in numbers.split("/")]
     if kind == "step":
         return step(values)
-    if kind.endswith(f"_{RELAY}"):
-        whose = next((each for each in variables if each.name == kind.removesuffix(f"_{RELAY}")), None)
+    if relay:
+        whose = next((each for each in variables if each.name == of), None) or numbered(of, variables)
         is_pair = len(values) == 2 and values[0] < values[1]
         return two_states(whose, *values) if whose is not None and is_pair else None
     if len(values) != 1 or values[0] <= 0.0:

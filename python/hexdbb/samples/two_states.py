@@ -1,5 +1,7 @@
 """Columns of two states, as `leg_force.relay@7.1/14.5`: what snaps over at one value of a column, and back at a lower.
 
+The column may be a vector's part along a direction: `position_mm.along@35.relay@-8/11`.
+
 +1 once the column has risen to the higher of two numbers, -1 once it has fallen to the lower; between them the state
 that it came with.
 """
@@ -17,7 +19,7 @@ from hexdbb.samples.over_time import followed, sweeps_of
 Floats = NDArray[np.float64]
 
 NUMBER = r"-?[0-9.]+(?:e[+-]?[0-9]+)?"
-RELAY = re.compile(rf"(?P<column>\w+)\.relay@(?P<low>{NUMBER})/(?P<high>{NUMBER})")
+RELAY = re.compile(rf"(?P<column>\w+(?:\.along@{NUMBER})?)\.relay@(?P<low>{NUMBER})/(?P<high>{NUMBER})")
 
 
 def relay_of(name: str) -> re.Match[str] | None:

@@ -171,7 +171,7 @@ class Whole:
         return remembered_column(how, constant, *self._known(name, "time_s", "sweep", "angle_rad"))
 
     def _relay(self, name: str, low: float, high: float) -> Floats | None:
-        if name not in self.names:
+        if self.column(name) is None:
             return None
         return relay_column(low, high, *self._known(name, "time_s", "sweep", "angle_rad"))
 

@@ -29,3 +29,9 @@ def test_what_nobody_measured_says_nothing_of_which_is_largest() -> None:
     values = [{"per_kelvin": 0.0, "per_time": 1e-8 * value} for value in (1.0, 1.8, 1.5, 1.7, 0.9, 1.4)]
     clause = effect_clause(MODEL.info("screw_thermal"), sizes(names, values))
     assert clause == "all 6 sliders: the screw of slider 2 grows during the test most, that of slider 5 least"
+
+
+def test_what_cools_shrinks() -> None:
+    names = {"per_kelvin": "1/K", "per_time": "1/s"}
+    cooled = sizes(names, [{"per_kelvin": 0.0, "per_time": -1e-8}])
+    assert effect_clause(MODEL.info("screw_thermal"), cooled) == "the screw of slider 1 shrinks during the test"

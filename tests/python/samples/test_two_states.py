@@ -60,3 +60,14 @@ def test_samples_have_the_column_by_its_name() -> None:
     assert set(np.unique(found[:, 2])) == {-1.0, 1.0}
     assert np.all(found[sliders[:, 2] > high + 1e-2, 2] == 1.0)
     assert np.all(found[sliders[:, 2] < low - 1e-2, 2] == -1.0)
+
+
+def test_a_vectors_part_along_a_direction_has_states_too() -> None:
+    samples = Samples.planned(PLAN.machine_file(), PLAN.runs(), np.arange(180) * (2.0 * np.pi / 180), 100.0)
+    part = samples["position_mm"][:, :2] @ [np.cos(np.radians(35.0)), np.sin(np.radians(35.0))]
+    low, high = np.quantile(part, [0.3, 0.7])
+    found = samples[f"position_mm.along@35.relay@{low:.6g}/{high:.6g}"]
+    assert np.all(found[part > high + 1e-2] == 1.0)
+    assert np.all(found[part < low - 1e-2] == -1.0)
+    between = (part > low + 1e-2) & (part < high - 1e-2)
+    assert set(np.unique(found[between])) == {-1.0, 1.0}
