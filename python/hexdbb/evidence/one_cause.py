@@ -16,8 +16,11 @@ def is_refined(search: Search, node: Node, cause: Hypothesis, learned: Learned) 
 
     A function that explains more by far is the cause, and the effect a part of its form. Of two learned functions at
     one place the lesser is the form of the other, however much less, unless it changes with time and the other does
-    not. One function that pushes across a guideway in both of its directions is two learned ones.
+    not. One function that pushes across a guideway in both of its directions is two learned ones. The bar's two balls
+    are two causes.
     """
+    if isinstance(cause, Learned) and cause.ball and learned.ball and cause.ball != learned.ball:
+        return False
     if isinstance(cause, Learned) and (
         cause in learned.parts or cause.variable == learned.variable or cause.is_of_time == learned.is_of_time
     ):

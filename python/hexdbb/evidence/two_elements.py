@@ -2,7 +2,8 @@
 
 Of such a pair either alone explains half, and some function of another state may explain more: the pair is then never
 looked at. Here all pairs of elements are compared at once, to first order, for every state that elements of one place
-have each for themselves; the best few are fitted in full.
+have each for themselves; the best few are fitted in full. The bar's two balls are such a pair: by the direction of the
+bar each goes round, in the base the one and in the platform the other.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.evidence.last_resort import needs_no_other
+from hexdbb.evidence.last_resort import axes_along, needs_no_other
 from hexdbb.evidence.marginal import log_evidences
 from hexdbb.evidence.needed import needs_all
 from hexdbb.evidence.node import Node
@@ -71,12 +72,13 @@ def or_at_two_elements(search: Search, node: Node) -> Node:
 
 
 def _stands_before(search: Search, pair: Node, node: Node) -> bool:
-    """Check that a pair predicts, needs both, and has more evidence; two functions in place of one leave far less."""
+    """Check that a pair predicts, needs both, and has more evidence; along more axes than what it replaces, far less."""
     if pair.score - node.score <= search.criteria.margin_nats:
         return False
     if pair.trial.is_free_in_time and not (node.trial.is_free_in_time and axes_of(pair) <= axes_of(node)):
         return False  # two functions of time, with more values than what they replace, describe whatever drifts
-    least = search.criteria.far_better if len(node.members) < len(pair.members) else 1.0
+    is_freer = len(node.members) < len(pair.members) and axes_along(node) < axes_along(pair)
+    least = search.criteria.far_better if is_freer else 1.0
     is_less = _is_at_more_elements(node) or pair.trial.left - 1.0 < least * (node.trial.left - 1.0)
     return is_less and predicts(search, pair) and needs_all(search, pair)
 
@@ -126,11 +128,19 @@ def _families(search: Search) -> Iterable[list[Learned]]:
     A guideway that is bent has it in either direction. A variable that was tuned has splines of its own number.
     """
     found: dict[tuple[str, Variable], list[Learned]] = defaultdict(list)
+    balls: dict[int, list[Learned]] = defaultdict(list)
     for each in (*search.learnable.simple, *search.learnable.further.values()):
         is_one = each.element != ALL and each.element not in PAIRS.values() and each.components == 1
         if is_one and each.place in KINDS and not each.variable.of_element:
             found[KINDS[each.place], each.variable].append(each)
-    return (each for each in found.values() if len({one.element for one in each}) > 1)
+        elif each.ball:
+            balls[each.size].append(each)
+    return (each for each in (*found.values(), *balls.values()) if len({*map(_whose, each)}) > 1)
+
+
+def _whose(function: Learned) -> int | str:
+    """Return what tells one element's function from another's."""
+    return function.ball or function.element
 
 
 class _Pairs:
@@ -150,7 +160,7 @@ class _Pairs:
         information, width = together.T @ together - half @ half.T, tables[0].shape[1]
         every = combinations(range(len(functions)), 2)
         # The two directions of one guideway are one element.
-        pairs = [(a, b) for a, b in every if functions[a].element != functions[b].element]
+        pairs = [(a, b) for a, b in every if _whose(functions[a]) != _whose(functions[b])]
         at = np.array([[*range(a * width, (a + 1) * width), *range(b * width, (b + 1) * width)] for a, b in pairs])
         squares = information[at[:, :, None], at[:, None, :]]
         evidence = log_evidences(squares, cross[at, -1], self._sizes_mm, self._temper)

@@ -198,6 +198,12 @@ class Learned:
         return self.variable.column == "time_s"
 
     @property
+    def ball(self) -> str:
+        """At which of the bar's two balls its direction counts: `platform`, `cup`; empty for all else."""
+        variable = self.variable
+        return "" if self.place != "reading" or variable.times else v.OF_BALLS.get(variable.column, "")
+
+    @property
     def port(self) -> str:
         """Port of the engine that is pushed."""
         return PORTS.get(self.place, self.place)

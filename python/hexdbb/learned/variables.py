@@ -224,6 +224,8 @@ FINE_BAR_ANGLE, FINE_BAR_AZIMUTH = (
     replace(each, name=f"fine_{each.name}", count=FINE_TURN) for each in (BAR_ANGLE, BAR_AZIMUTH)
 )
 """For a dent in a ball, which is a few degrees wide."""
+OF_BALLS = {BAR_ANGLE.column: "platform", BAR_AZIMUTH.column: "cup", ANGLE.column: "cup"}
+"""Directions of the bar, and at which of its two balls each counts: on level circles the polar angle is the azimuth."""
 BAR_ELEVATION = Variable(
     "bar_elevation", "bar_elevation_rad", "rad", "angle of the bar to the horizontal", 8, least=LEAST_TILT
 )

@@ -362,6 +362,8 @@ def test_what_no_effect_says_is_found_beside_one(name: str, causes: set[str]) ->
         ("screws-whip", {"learned:slider:3:velocity", "learned:slider:6:velocity"}),
         # A beam fell on two rails: a bow beside the other dent, of which its formula says nothing.
         ("two-dents", {"learned:vertical:2:position", "learned:lateral:1:position"}),
+        # A lobed ball in the cup, a worn patch on the platform's: the platform's along three axes said as much.
+        ("two-balls", {"learned:reading:bar_angle", "learned:reading:bar_azimuth"}),
     ],
 )
 def test_two_elements_with_functions_of_their_own_are_found_together(name: str, causes: set[str]) -> None:

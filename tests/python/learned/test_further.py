@@ -169,3 +169,18 @@ def test_what_is_not_there_is_refused(name: str, said: str) -> None:
     with pytest.raises(InputError) as caught:
         Learned.parse(name)
     assert said in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("name", "ball"),
+    [
+        ("reading:fine_bar_angle", "platform"),
+        ("reading:bar_azimuth", "cup"),
+        ("reading:angle", "cup"),
+        ("reading:time_angle", ""),
+        ("cup:angle", ""),
+        ("reading:time", ""),
+    ],
+)
+def test_a_function_of_the_bars_direction_is_of_one_of_its_balls(name: str, ball: str) -> None:
+    assert Learned.parse(f"learned:{name}").ball == ball
