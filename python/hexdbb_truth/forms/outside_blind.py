@@ -143,8 +143,8 @@ def _hose_tautens(draw: Draw) -> Fault:
         return -1e-3 * size * column(taut) * np.ones(2)
 
     why = "two feet that spread lower their legs' joint as two shorter legs do"
-    same = Equivalent("slider", "joint_angle", (first + 1, first + 2), why)
-    return Fault(Action("leg", pair, values), (same,))
+    same = (Equivalent("slider", each, (first + 1, first + 2), why) for each in ("gap", "joint_angle"))
+    return Fault(Action("leg", pair, values), tuple(same))
 
 
 def _plate_warms(draw: Draw) -> Fault:
@@ -244,7 +244,7 @@ TABLE: dict[str, Outside] = {
     "carriages_tip": Outside("um", 15.0, 500.0, ("leg_force",), _carriages_tip),
     "beam_sags": Outside("um", 30.0, 600.0, ("position", "leg_force"), _beam_sags),
     "boot_relaxes": Outside("um", 10.0, 300.0, ("joint_angle", "joint_turning"), _boot_relaxes),
-    "hose_tautens": Outside("um", 15.0, 600.0, ("joint_angle", "position"), _hose_tautens),
+    "hose_tautens": Outside("um", 15.0, 600.0, ("gap", "joint_angle", "position"), _hose_tautens),
     "plate_warms": Outside("um", 20.0, 300.0, ("time",), _plate_warms),
     "machine_rocks": Outside("um", 8.0, 200.0, ("acceleration",), _machine_rocks),
     "floor_shakes": Outside("um", 15.0, 300.0, ("time",), _floor_shakes),
