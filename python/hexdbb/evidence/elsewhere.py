@@ -15,10 +15,7 @@ from hexdbb.evidence.screen import Known
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.settling import explained_by_formulas
 from hexdbb.learned import ALL
-from hexdbb.learned.places import members
-
-INSTRUMENT = frozenset({"reading", "ball", "cup"})
-"""Ports of the ball bar and its set-up; all others are the machine's."""
+from hexdbb.learned.places import INSTRUMENT, members
 
 
 def rivals_elsewhere(search: Search, node: Node, cause: Known, alike: Sequence[str]) -> list[str]:

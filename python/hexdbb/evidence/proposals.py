@@ -260,7 +260,9 @@ def periods(
     gaps = np.diff(np.unique(time_s))
     if len(gaps) and "time_s" not in readings.state.unmeasured:
         highest = 0.5 / float(np.median(gaps))
-        for place, element in _shifting():
+        # One carriage that is pushed about across its guideway by a clamp, or a pulse of oil, moves alone.
+        carriages = (("slider_joint", element) for element in range(1, 7))
+        for place, element in (*_shifting(), *carriages):
             if place != "ball" and is_asked_for(Learned(place, element, periodic("time", 1.0))):
                 weighted = linear.residual[:, None] * _answers(readings, place, element)
                 yield from _period(place, element, "time", weighted, time_s, highest)

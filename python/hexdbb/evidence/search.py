@@ -40,7 +40,7 @@ from hexdbb.evidence.thinned import Thinned
 from hexdbb.evidence.trial import Member, Trial
 from hexdbb.evidence.trials import Trials
 from hexdbb.learned import ALL, Learned, settling
-from hexdbb.learned.places import EACH
+from hexdbb.learned.places import EACH, INSTRUMENT
 
 Floats = NDArray[np.float64]
 
@@ -247,8 +247,19 @@ class Search:
         chosen = [*shortlist(known, count, most), *shortlist(learned, count, most)]
         found = self.tried(node, [*chosen, *in_other_words(self, known, learned, chosen)])
         if learns and not any(settles(self, each) for each in found):
+            if node is self.root:
+                found += self.tried(node, [each for each in known if self._is_of_all(each) and each not in chosen])
             found += self.tried(node, shortlist(screened_further(self, node.trial, screen), count, most))
         return sorted(found, key=lambda each: -each.score)
+
+    def _is_of_all(self, scored: Scored) -> bool:
+        """Check for an effect that all legs or sliders share, at the machine's end of the measuring loop.
+
+        Geometry takes what they do alike, and what is seen is how they differ, its form, by which it is not screened:
+        legs that grow unequally were a guideway that grows.
+        """
+        known = scored.hypothesis
+        return isinstance(known, Known) and known.is_whole and not self.engine.absent.ports(known.effect) <= INSTRUMENT
 
     def _needed(self, children: Iterable[Node]) -> list[Node]:
         """Return those whose last member is needed and refused by nothing, the best first."""

@@ -53,6 +53,8 @@ KINDS = {
 }
 SHARED = ("slider", "leg")
 """Places whose elements may share one function."""
+INSTRUMENT = frozenset({"reading", "ball", "cup"})
+"""Ports of the ball bar and its set-up; all others are the machine's."""
 PORTS = {
     "lateral": "slider_joint",
     "vertical": "slider_joint",
