@@ -60,8 +60,9 @@ def or_at_two_elements(search: Search, node: Node) -> Node:
     node : Node
         Returned unchanged where it explains and predicts all but the noise, or nothing is learned; unless it is one
         effect at all elements, which two of them may imitate: what drives have in common, geometry and delay nearly do.
+        Or a free function of time along several axes, which follows two couplings that slip wherever they push.
     """
-    if not search.learns or (needs_no_other(search, node) and not _is_at_more_elements(node)):
+    if not search.learns or (needs_no_other(search, node) and not (_is_at_more_elements(node) or _is_any_drift(node))):
         return node
     pairs = best_pairs(search)
     worth = [each for each in pairs[:FITTED] if each.log_evidence >= NEAR * pairs[0].log_evidence]
@@ -75,8 +76,9 @@ def _stands_before(search: Search, pair: Node, node: Node) -> bool:
     """Check that a pair predicts, needs both, and has more evidence; along more axes than what it replaces, far less."""
     if pair.score - node.score <= search.criteria.margin_nats:
         return False
-    if pair.trial.is_free_in_time and not (node.trial.is_free_in_time and axes_of(pair) <= axes_of(node)):
-        return False  # two functions of time, with more values than what they replace, describe whatever drifts
+    is_as_free = axes_of(pair) <= axes_of(node) or 2 <= max(len(node.members), axes_along(node))
+    if pair.trial.is_free_in_time and not (node.trial.is_free_in_time and is_as_free):
+        return False  # two functions of time, with more values than the one that they replace, describe whatever drifts
     is_freer = len(node.members) < len(pair.members) and axes_along(node) < axes_along(pair)
     least = search.criteria.far_better if is_freer else 1.0
     is_less = _is_at_more_elements(node) or pair.trial.left - 1.0 < least * (node.trial.left - 1.0)
@@ -86,6 +88,11 @@ def _stands_before(search: Search, pair: Node, node: Node) -> bool:
 def _is_at_more_elements(node: Node) -> bool:
     """Check for one known effect at all elements, which are more than two."""
     return len(node.members) == 1 and is_of_several(node.hypotheses[0])
+
+
+def _is_any_drift(node: Node) -> bool:
+    """Check for one free function of time along several axes."""
+    return len(node.members) == 1 and node.trial.is_free_in_time and axes_along(node) > 1
 
 
 def _fitted(search: Search, pair: Pair) -> Node | None:

@@ -63,11 +63,11 @@ def test_a_drive_that_yields_under_load_is_learned_over_speed_and_load() -> None
     assert line["heldout"]["circle"]["after"] < 1.1
 
 
-def test_a_gauge_that_drifts_is_not_put_down_to_legs_for_sure() -> None:
+def test_a_gauge_that_drifts_is_not_put_down_to_legs_or_screws_for_sure() -> None:
     line = line_of(case("bar_drift-d10-x30-calibrate-s0"), ["bar_drift"])
     assert line["grade"] == "ambiguous"
     (found,) = line["found"]
-    assert found["name"] == "leg_thermal"
+    assert found["name"] in ("leg_thermal", "screw_thermal")  # six of either say it nearly
     assert "learned:reading:time" in found["rivals"]
 
 

@@ -75,8 +75,9 @@ def test_not_where_it_is_one_of_several() -> None:
     assert named(OTHER_LEG, BY_FORM, beside=(Known("sample_delay", ("1",), is_whole=True),)) == []
 
 
-def test_not_without_more_evidence() -> None:
-    assert named(OTHER_LEG, BY_FORM, lead=0.9 * DEFAULT.margin_nats) == []
+def test_not_with_less_evidence() -> None:
+    assert named(OTHER_LEG, BY_FORM, lead=-0.9 * DEFAULT.margin_nats) == [OTHER_LEG]
+    assert named(OTHER_LEG, BY_FORM, lead=-1.1 * DEFAULT.margin_nats) == []
 
 
 @pytest.mark.parametrize("function", ["learned:leg:6:platform_joint_angle", "learned:leg:5-6:platform_joint_angle"])
