@@ -73,10 +73,11 @@ def or_at_two_elements(search: Search, node: Node) -> Node:
 
 
 def _stands_before(search: Search, pair: Node, node: Node) -> bool:
-    """Check that a pair predicts, needs both, and has more evidence; along more axes than what it replaces, far less."""
+    """Check that a pair predicts, needs both, has more evidence, and leaves less; far less along more axes."""
     if pair.score - node.score <= search.criteria.margin_nats:
         return False
-    is_as_free = axes_of(pair) <= axes_of(node) or 2 <= max(len(node.members), axes_along(node))
+    replaced = max(len(node.members), axes_along(node))
+    is_as_free = axes_of(pair) <= axes_of(node) or len(pair.members) <= replaced
     if pair.trial.is_free_in_time and not (node.trial.is_free_in_time and is_as_free):
         return False  # two functions of time, with more values than the one that they replace, describe whatever drifts
     is_freer = len(node.members) < len(pair.members) and axes_along(node) < axes_along(pair)
