@@ -16,7 +16,6 @@ from hexdbb.evidence.refine import finely_tuned
 from hexdbb.evidence.screen import Scored
 from hexdbb.evidence.settling import explains_nearly, predicts
 from hexdbb.evidence.signatures import varying
-from hexdbb.evidence.tuned import axes_of
 from hexdbb.learned import Learned, has_chosen_number, number_of
 from hexdbb.learned.numbered import NUMBERED
 from hexdbb.learned.places import OF_GUIDEWAY
@@ -145,8 +144,7 @@ def _is_there(search: Search, node: Node, before: Node) -> bool:
 
     What a cable does that is wound up, turn by turn, is few values where it pulls along one direction, and many where
     that goes round with the angle. Of sixty functions of one axis that were true, tuned, none had less evidence than
-    the same state along several without erring more: what has more evidence, and errs no more, is no freer guess. One
-    function had, by the prior alone: what leaves no less with more values says nothing more.
+    the same state along several without erring more: what has more evidence, and errs no more, is no freer guess.
     """
     if node.score - before.score <= search.criteria.margin_nats or node.trial.refused:
         return False
@@ -156,8 +154,7 @@ def _is_there(search: Search, node: Node, before: Node) -> bool:
         return False
     if is_less or axes_along(node) < axes_along(before):
         return True
-    says_more = left < excess or axes_of(node) < axes_of(before)
-    return says_more and _errs_as_little(search, node, before)
+    return _errs_as_little(search, node, before)
 
 
 def _errs_as_little(search: Search, node: Node, before: Node, determined_to: float = math.inf) -> bool:
