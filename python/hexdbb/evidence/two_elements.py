@@ -60,7 +60,7 @@ def or_at_two_elements(search: Search, node: Node) -> Node:
     node : Node
         Returned unchanged where it explains and predicts all but the noise, or nothing is learned; unless it is one
         effect at all elements, which two of them may imitate: what drives have in common, geometry and delay nearly do.
-        Or a free function of time along several axes, which follows two couplings that slip wherever they push.
+        Or a free function of time along several axes: it also describes two couplings that slip, each at its own time.
     """
     if not search.learns or (needs_no_other(search, node) and not (_is_at_more_elements(node) or _is_any_drift(node))):
         return node

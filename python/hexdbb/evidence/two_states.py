@@ -40,7 +40,7 @@ ROUNDS, FINER, EITHER_SIDE = 7, 2, 3
 its numbers: one and a half of the distance before, since a gain with so many jumps has more than one maximum. In the
 end they are a thousandth of the range apart, less than what a variable changes from one reading to the next."""
 FINEST_DEG = 1.0
-"""Steps of a direction end below it: a circle turns as far within some sixty readings, a sixth of a second."""
+"""Steps of a direction end at it or below: readings of a lap are about as far apart, and tell nothing finer."""
 
 
 def relays(linear: Linear, readings: Readings, criteria: Criteria) -> list[Proposal]:
