@@ -25,6 +25,11 @@ def explain_by_own_formulas(search: Search, node: Node) -> bool:
     return _explain_so(search, node, search.criteria.own_formula, search.criteria.explained_min)
 
 
+def explain_in_part(search: Search, node: Node) -> bool:
+    """Check for known effects that together explain enough by formulas, and each a part of what the others leave."""
+    return _explain_so(search, node, search.criteria.formula_names, search.criteria.explained_min)
+
+
 def explain_nearly_all(search: Search, node: Node) -> bool:
     """Check for known effects that each explain by their own formula nearly all that they do, and together nearly all.
 

@@ -137,6 +137,14 @@ def test_what_says_as_much_at_the_other_end_of_the_measuring_loop_is_named_too()
     assert "learned:cup:time" in {name for each in found.causes for name in (each.choice, *each.rivals)}
 
 
+@pytest.mark.long
+def test_effects_that_nearly_cancel_are_no_causes_for_sure() -> None:
+    """An arm of the platform warms: three screws, none of which is missed without, followed it by their forms."""
+    found = found_in("platform-warms")
+    assert found.verdict == "unknown"
+    assert not [each for each in found.causes if each.verdict == "effect"]
+
+
 def test_noise_that_lasts_for_some_readings_is_nothing_missing() -> None:
     """Each reading of single laps keeps half of the noise of the one before it."""
     assert found_in("lasting-noise").verdict == "none"
