@@ -34,6 +34,7 @@ def explains_and_predicts(monkeypatch: pytest.MonkeyPatch) -> None:
 def nothing_is_put_down_to_geometry(monkeypatch: pytest.MonkeyPatch) -> None:
     """What each effect explains by its own formula is asked in `test_by_formulas.py`."""
     monkeypatch.setattr(sure, "err_by_geometry", lambda *_: False)
+    monkeypatch.setattr(sure, "explain_in_part", lambda *_: True)
 
 
 def searched(left: float | None) -> Any:
@@ -173,6 +174,22 @@ def test_several_explain_enough_by_their_formulas(left: float, missed: float, be
         ),
     )
     assert is_for_sure(search, node) is sure_of_it
+
+
+@pytest.mark.parametrize(("left", "sure_of_it"), [(3.0, True), (5.0, False)], ids=["nearly all", "much is left"])
+def test_several_that_leave_much_each_explain_a_part(
+    monkeypatch: pytest.MonkeyPatch, left: float, sure_of_it: bool
+) -> None:
+    """Effects that nearly cancel are as free as a function; where formulas explain nearly all, none is asked."""
+    monkeypatch.setattr(sure, "explain_in_part", lambda *_: False)
+    trial: Any = SimpleNamespace(members=(LEGS, SCREW), left=1.0, forms=(None, None))
+    search: Any = SimpleNamespace(
+        criteria=DEFAULT,
+        root=SimpleNamespace(trial=SimpleNamespace(left=BEFORE)),
+        left_by_formulas=lambda trial: left,
+        checked=lambda node: SimpleNamespace(share=1.0, excused=False, missed=0.1, missed_at_least=0.1, heldout={}),
+    )
+    assert is_for_sure(search, Node(trial, 0.0)) is sure_of_it
 
 
 @pytest.mark.parametrize(("left", "sure_of_it"), [(5.0, True), (8.0, False)], ids=["by its formula", "by its form"])
