@@ -135,7 +135,8 @@ def engine_share(fleet: Fleet, folder: Path, model: str | None) -> Share:
             read_record(Path(path)).content_hash()  # what judging does before the engine has anything to do
             found.append((whole_s, engine_s, time.perf_counter() - begun))
     fitted = "geometric errors" if model is None else "geometric errors and play"
-    return Share(*np.median(found, axis=0), readings=rows[0]["readings"], model=fitted)
+    whole_s, engine_s, file_s = np.median(found, axis=0)
+    return Share(whole_s, engine_s, file_s, rows[0]["readings"], fitted)
 
 
 def told(fleet: Fleet, shares: tuple[Share, ...], runs: dict[int, Summary], folder: Path) -> list[str]:

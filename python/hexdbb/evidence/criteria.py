@@ -173,7 +173,7 @@ class Criteria:
         predicts, must explain to take its place: of a joint 20 % off, of which geometry takes most, it was 0.27; of
         leads and legs that stood in for bumps and for a ball that settles 0.01 to 0.17. Also the part of what the
         others leave that each of several must explain where their formulas leave much (`form_explains`): 0.25 of the
-        lesser of a true pair, below nothing of two of three screws that cancelled.
+        lesser of a true pair, negative for two of three screws that cancelled.
     formula_most : float
         Part of the unexplained that the formula of an effect must explain for the function in which it lives to be its
         form, not another cause: the larger part. Of a lead 20 % off its form, whose straight part geometry takes too,

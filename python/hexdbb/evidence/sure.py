@@ -116,11 +116,11 @@ def _is_put_together(search: Search, node: Node) -> bool:
 
 
 def _is_made_up(search: Search, node: Node) -> bool:
-    """Check for several known effects whose formulas leave much, and one of which explains hardly any by its own.
+    """Check for several known effects whose formulas leave much, and one of which explains hardly anything by its own.
 
-    Effects that nearly cancel are as free as a function: three screws that grow and shrink, none of which explained
-    more than a fiftieth of what the others left, followed a platform that warmed. Against what each pushes its form is
-    then hardly off, however much of what was missed the forms of all had to describe.
+    Effects that nearly cancel are as free as a function: three screws, one that grew and two that shrank, followed an
+    arm of the platform that warmed. The formulas left a quarter of what was missed, and the functions of their forms
+    described that; compared with what each screw pushes, these were small, so that no form was refused.
     """
     if len(node.members) < 2 or not node.is_known or _explains_by_formulas(search, node):
         return False

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from hexdbb.errors import RunError
-from hexdbb.evidence.by_formulas import err_by_geometry, explain_by_own_formulas, explain_nearly_all
+from hexdbb.evidence.by_formulas import err_by_geometry, explain_by_own_formulas, explain_in_part, explain_nearly_all
 from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.evidence.heldout import HeldOut
 from hexdbb.evidence.node import Node
@@ -81,6 +81,18 @@ def test_or_nearly_all_where_one_hypothesis_may_be_said_instead(left: float, eac
     search = searched(node, without={**BOTH}, own={JOINT.name: left, SCREW.name: 1.3})
     assert explain_by_own_formulas(search, node)
     assert explain_nearly_all(search, node) is each_does
+
+
+@pytest.mark.parametrize(
+    ("own", "formulas", "each_does"),
+    [(4.1, 6.9, True), (4.3, 6.9, False), (5.2, 6.9, False), (4.1, 7.1, False)],
+    ids=["a part each", "less", "nothing", "too little together"],
+)
+def test_in_part_is_a_fifth_each_and_enough_together(own: float, formulas: float, each_does: bool) -> None:
+    """Of four noise variances that the joint leaves the screw's formula must explain 0.8."""
+    node = node_of(JOINT, SCREW)
+    search = searched(node, without={**BOTH}, own={JOINT.name: 2.9, SCREW.name: own}, formulas=formulas)
+    assert explain_in_part(search, node) is each_does
 
 
 def test_a_learned_function_has_no_formula() -> None:

@@ -34,6 +34,11 @@ def explains_and_predicts(monkeypatch: pytest.MonkeyPatch) -> None:
 def nothing_is_put_down_to_geometry(monkeypatch: pytest.MonkeyPatch) -> None:
     """What each effect explains by its own formula is asked in `test_by_formulas.py`."""
     monkeypatch.setattr(sure, "err_by_geometry", lambda *_: False)
+
+
+@pytest.fixture(autouse=True)
+def each_explains_a_part(monkeypatch: pytest.MonkeyPatch) -> None:
+    """This too."""
     monkeypatch.setattr(sure, "explain_in_part", lambda *_: True)
 
 
