@@ -8,7 +8,7 @@ from hexdbb.evidence.proposals import periods, proposals
 from hexdbb.evidence.screen import Hypothesis
 from hexdbb.evidence.signatures import all_varying
 from hexdbb.learned import Learned, part_of
-from hexdbb.learned.further import is_slow
+from hexdbb.learned.combined import is_slow
 
 if TYPE_CHECKING:
     from hexdbb.evidence.readings import Linear

@@ -12,17 +12,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from hexdbb.learned import variables as v
-from hexdbb.learned.further import (
-    BY_TRAVEL,
-    DIRECTIONS_DEG,
-    FACTORS,
-    OF_BALL,
-    OF_WHOLE,
-    each_way,
-    neighbour,
-    of_drives,
-    product,
-)
+from hexdbb.learned.combined import FACTORS, each_way, neighbour, of_drives, product
+from hexdbb.learned.further import BY_TRAVEL, DIRECTIONS_DEG, OF_BALL, OF_WHOLE
 from hexdbb.learned.numbered import POSITION_SPLINES, along
 from hexdbb.learned.places import ALL, PAIRS, SHARED, variables_of
 from hexdbb.learned.variable import Variable

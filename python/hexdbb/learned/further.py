@@ -6,26 +6,13 @@ load contains a lag. So they are no candidates while a simpler function explains
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from hexdbb.learned import variables as v
-from hexdbb.learned.numbered import AFTER, FAR, LAGGED, RELAXING, SETTLING, SLIPPING, along, following
-from hexdbb.learned.variable import ELAPSED, LINGERING, Variable, is_growing
+from hexdbb.learned.combined import CONSTANTS_S, SPLINES, each_way, neighbour, of_drives, product, remembered
+from hexdbb.learned.numbered import AFTER, LAGGED, SETTLING, SLIPPING, along, following
+from hexdbb.learned.variable import LINGERING, Variable
 
-SPLINES = 6
-"""Splines of a product: what multiplies sets most of its form already."""
-CONSTANTS_S = (2.0, 6.0, 20.0, 60.0)
-"""Time constants of what remembers, at first: a factor of three apart each contains half of its neighbour; the readings
-then move it. Shorter ones follow at once at usual feeds, longer ones are functions of time."""
-SLIPS = {
-    **dict.fromkeys(("leg_force", "drive_load", "carriage_load"), (0.02, 0.06)),
-    "joint_angle": (0.03, 0.12),
-}
-"""How far a contact yields before it slips, at first, by the variable that strains it: loads per vertical load change
-by 0.1 to 0.2 in a circle, joints turn by 0.3 to 0.6 rad. The readings then move it."""
-LONG_S = (6.0, 20.0)
-"""The same where circles are run up to from afar: what is shorter forgets the run-up, longer is seen in the mean."""
 GROWTHS_S = (200.0, 800.0)
 """Time constants of what grows towards an end, at first: thin rails and screws take some minutes to warm, beams half an
 hour; the readings then move them. What takes much longer than a test grows evenly in it."""
@@ -39,85 +26,6 @@ DIRECTIONS_DEG = tuple(15.0 * each for each in range(1, 13))
 """Directions in the base's x-y plane that are tried first; the fit then refines them. Of a motion in another direction
 the nearest of the twelve explains at least 98 % (the square of the cosine of 7.5 degrees). With four directions it was
 85 %, less than a function of the circle's angle explains of a tipping table, so that the wrong one was chosen."""
-FACTORS = {
-    "velocity": ("velocity_mm_s", "velocity"),
-    "acceleration": ("acceleration_mm_s2", "acceleration"),
-    "leg_force": ("leg_force", "force of the leg"),
-    "direction": ("travel_direction", "direction of travel"),
-    "joint_direction": ("slider_joint_direction", "sense in which the slider's joint turns"),
-    "deflection": ("deflection_mm", "deflection of the gauge"),
-    "time": (ELAPSED, "time"),
-    "warming": ("warming_k", "warming"),
-    "speed": ("speed_mm_s", "speed of the platform"),
-    "circle_direction": ("direction", "direction of the circle"),
-    "deflection_direction": ("deflection_direction", "sense in which the gauge moves"),
-    "drive_load": ("drive_load", "force along the guideway"),
-    "joint_rate": ("slider_joint_rate_rad_s", "turning rate of the slider's joint"),
-    "joint_angle": ("slider_joint_angle_rad", "angle of the slider's joint"),
-}
-"""What may multiply a function: name, column and words."""
-FACTORS |= {
-    f"neighbour_{name}": (f"neighbour_{column}", f"{words} of the other slider on the guideway")
-    for name, (column, words) in FACTORS.items()
-    if name in ("velocity", "acceleration", "direction")
-}
-
-
-def is_slow(variable: Variable) -> bool:
-    """Whether a variable is a product with what changes over a whole test: time or warmth."""
-    return is_growing(variable.times) or variable.times == FACTORS["warming"][0]
-
-
-def product(factor: str, variable: Variable) -> Variable:
-    """Return the functions of a variable times one of `FACTORS`: `velocity_leg_force`."""
-    column, words = FACTORS[factor]
-    return replace(
-        variable,
-        name=f"{factor}_{variable.name}",
-        words=f"{variable.words}, times the {words}",
-        count=v.SWINGS if variable == v.TIME else variable.count if variable.period else SPLINES,
-        times=column,
-        signed=False,
-        of_forms=False,
-        parts=(factor, variable.name),
-    )
-
-
-def each_way(variable: Variable, by: str, words: str) -> Variable:
-    """Return a function of its own for either direction: what catches one way only is neither even nor odd.
-
-    Parameters
-    ----------
-    variable : Variable
-    by : str
-        Column of the direction's sign.
-    words : str
-        What that direction is called.
-    """
-    return replace(
-        variable,
-        name=f"{variable.name}_each_way",
-        words=f"{variable.words}, each {words} by itself",
-        times=by,
-        parts=(variable.name,),
-        beside=("",),
-    )
-
-
-def neighbour(variable: Variable) -> Variable:
-    """Return the variable of the other slider, or leg, on the guideway."""
-    words = variable.words.replace("of the slider", "of the other slider on the guideway")
-    words = words.replace("of the leg", "of the other leg of the pair")
-    return replace(variable, name=f"neighbour_{variable.name}", words=words, of_neighbour=True)
-
-
-def _remembered(*variables: Variable) -> Iterator[Variable]:
-    for each in variables:
-        for how in (LAGGED, RELAXING):
-            yield from (following(each, how, constant_s) for constant_s in CONSTANTS_S)
-            yield from (following(each, f"{how}{FAR}", constant_s) for constant_s in LONG_S)
-        for how in (SLIPPING, f"{SLIPPING}{FAR}"):
-            yield from (following(each, how, most) for most in SLIPS.get(each.name, ()))
 
 
 LINGERING_ANGLE = tuple(following(v.ANGLE, LINGERING, each) for each in CONSTANTS_S[1:])
@@ -208,18 +116,6 @@ PRODUCTS_OF_READING = (
     *(product("speed", each) for each in (v.ANGLE, v.DEFLECTION)),
     *(product("circle_direction", each) for each in (v.BAR_ANGLE, v.DEFLECTION, v.TIME, v.SPEED)),
 )
-
-
-def of_drives(variables: Iterable[Variable]) -> Iterator[Variable]:
-    """Yield each variable of each slider and its leg, whatever is pushed."""
-    for variable in variables:
-        for slider in range(1, 7):
-            yield replace(
-                variable,
-                name=f"slider_{slider}_{variable.name}",
-                of_element=slider,
-                words=variable.words.replace("the slider", f"slider {slider}").replace("the leg", f"leg {slider}"),
-            )
 
 
 OTHER_DRIVES = tuple(of_drives((v.VELOCITY,)))
@@ -321,7 +217,7 @@ the nearest explains 93 % at least.
 GROWS = (v.TIME, v.WARMING)
 """Variables of what a whole structure does: it grows."""
 
-OF_RAIL = (v.CARRIAGE_LOAD, v.GAP, *PRODUCTS_OF_GUIDEWAY, v.WARMING, *SETTLING_POSITION, *_remembered(v.CARRIAGE_LOAD))
+OF_RAIL = (v.CARRIAGE_LOAD, v.GAP, *PRODUCTS_OF_GUIDEWAY, v.WARMING, *SETTLING_POSITION, *remembered(v.CARRIAGE_LOAD))
 FURTHER: dict[str, tuple[Variable, ...]] = {
     "slider": (
         v.DRIVE_LOAD,
@@ -331,7 +227,7 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
         v.POWER,
         *PRODUCTS_OF_SLIDER,
         *NEIGHBOURS,
-        *_remembered(v.DRIVE_LOAD),
+        *remembered(v.DRIVE_LOAD),
         *SETTLING_POSITION,
         *SINCE_START,
         *OTHER_DRIVES,
@@ -343,7 +239,7 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
     "leg": (
         *PRODUCTS_OF_LEG,
         *NEIGHBOURS,
-        *_remembered(v.FORCE, v.JOINT_ANGLE),
+        *remembered(v.FORCE, v.JOINT_ANGLE),
         *SETTLING_POSITION,
         *SINCE_START,
         *HEATED,
@@ -364,7 +260,7 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
         *PRODUCTS_OF_READING,
         *READING_EACH_WAY,
         SINCE_TURN_BY_DEFLECTION,
-        *_remembered(v.DEFLECTION),
+        *remembered(v.DEFLECTION),
         *SINCE_START,
         *CROSSTALK,
         *LINGERING_ANGLE,

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from hexdbb.learned import further
 from hexdbb.learned import variables as v
+from hexdbb.learned.combined import is_slow
 from hexdbb.learned.crossed import CROSSED, CROSSED_PAIRS
 from hexdbb.learned.hypothesis import Learned
 from hexdbb.learned.places import ALL, PAIRS, SHARED, VARIABLES, members, single
@@ -30,7 +31,7 @@ def products() -> Iterator[Learned]:
     for place, variables in further.FURTHER.items():
         for element in single(place):
             every = (Learned(place, element, each) for each in variables if each.times and not each.beside)
-            yield from (each for each in every if not each.is_of_time and not further.is_slow(each.variable))
+            yield from (each for each in every if not each.is_of_time and not is_slow(each.variable))
 
 
 def grown_with_warmth() -> Iterator[Learned]:
