@@ -15,6 +15,7 @@ from hexdbb.evidence.place import homes_of
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
 from hexdbb.learned import Learned
+from hexdbb.learned.places import EACH
 
 
 def of_one_state(search: Search, node: Node, cause: Known) -> Iterator[str]:
@@ -42,8 +43,13 @@ def of_one_state(search: Search, node: Node, cause: Known) -> Iterator[str]:
 
 
 def _is_of_one(search: Search, cause: Known, function: Hypothesis) -> bool:
-    """Check for a function of one of the two states of an effect, at its place, that does not contain the effect."""
+    """Check for a function of one of the two states of an effect, at its place, that does not contain the effect.
+
+    Those of all six elements contain that of the effect's own.
+    """
     if not isinstance(function, Learned) or function.parts or search.same_kind(cause, function):
+        return False
+    if function.element == EACH:
         return False
     states = (state for home in homes_of(search, cause) for state in home.parts)
     return any(

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
+from hexdbb.evidence.last_resort import state_of
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.place import kin_of
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
 from hexdbb.learned import ALL, Learned, part_of
-from hexdbb.learned.places import members
+from hexdbb.learned.places import EACH, members
 
 
 def sets_without(search: Search, node: Node, cause: Hypothesis) -> Iterator[tuple[Node, float]]:
@@ -25,10 +27,21 @@ def has_effect(other: Node, cause: Hypothesis) -> bool:
 
 
 def has_kind(search: Search, other: Node, cause: Hypothesis) -> bool:
-    """Check for a cause in a set, in the words of two sliders together and one of them alone too."""
+    """Check for a cause in a set, in the words of two sliders together and one of them alone, or of all six, too.
+
+    That six sliders lag, each in its own way, says of one of them that it does.
+    """
     learned = [each for each in other.hypotheses if isinstance(each, Learned)]
     both = (pair.other_of_pair(one) for pair in learned for one in learned)
-    return any(search.same_kind(each, cause) for each in (*other.hypotheses, *filter(None, both)))
+    if any(search.same_kind(each, cause) for each in (*other.hypotheses, *filter(None, both))):
+        return True
+    return any(_is_one_of(home, six) for six in learned if six.element == EACH for home in kin_of(search, cause))
+
+
+def _is_one_of(one: Learned, six: Learned) -> bool:
+    """Check for the function of one of six elements, its change of sign gradual or not."""
+    is_there = one.place == six.place and one.element in members(EACH)
+    return is_there and state_of(one) == state_of(replace(six, element=one.element))
 
 
 def acts_where_they_do(search: Search, other: Node, node: Node) -> bool:

@@ -183,6 +183,15 @@ def test_two_sliders_together_and_one_alone_are_the_other_in_other_words(variabl
 
 
 @pytest.mark.parametrize(
+    ("state", "is_rival"), [("velocity", False), ("velocity_turning@6.7", False), ("acceleration", True)]
+)
+def test_six_sliders_that_lag_are_no_rival_of_one_that_does(state: str, is_rival: bool) -> None:
+    six = Learned.parse(f"learned:slider:each:{state}")
+    found = rivals(Checked({}, 1.0, ()), Checked({}, 1.0, ()), node_of(50.0, six), OTHER_LAG, OTHER_HOME)
+    assert bool(found) is is_rival
+
+
+@pytest.mark.parametrize(
     ("of_node", "of_rival", "is_rival"),
     [(1.3, 1.1, True), (1.1, 1.3, False), (4.0, 3.0, False)],
     ids=["explains more by formulas", "explains less", "rests on its forms too"],
