@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING
 from hexdbb.evidence.last_resort import axes_along, stands_before
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.refine import finely_tuned, refined
-from hexdbb.evidence.screen import Hypothesis
-from hexdbb.evidence.settling import explains_nearly, leaves_no_structure, must_explain, predicts
+from hexdbb.evidence.screen import Hypothesis, Known
+from hexdbb.evidence.settling import explained_by_formulas, explains_nearly, leaves_no_structure, must_explain, predicts
 from hexdbb.evidence.sure import is_for_sure
 from hexdbb.learned import Learned
 from hexdbb.learned.numbered import TURNING
@@ -97,12 +97,34 @@ def or_one_place(search: Search, node: Node, wider: Node) -> tuple[Node, Node]:
     """
     if len(node.members) < 2 or is_for_sure(search, node):
         return node, wider
+    if (sure := _one_for_sure(search, node)) is not None:
+        return sure, refined(search, sure)
     for alone in islice((each for each in _tuned(search, search.criteria.far_better) if not each.trial.is_of_time), 1):
         if predicts(search, alone) or _explains_far_more(search, alone, node):
             refined_alone = refined(search, alone)
             if refined_alone.score > wider.score:
                 return alone, refined_alone
     return node, wider
+
+
+def _one_for_sure(search: Search, several: Node) -> Node | None:
+    """Return the effect of one of several causes that is for sure alone, and explains nearly all by its formula.
+
+    What it leaves is what its form leaves, or one more fault that nothing says for sure: a ball fixed off its place,
+    whose seat rocks, was a ball and a bow, and for these no single function that explained less than the ball alone.
+    """
+    effects = {each.effect for each in several.hypotheses if isinstance(each, Known)}
+    every = [
+        each
+        for each in search.nodes
+        if len(each.members) == 1 and isinstance(each.hypotheses[0], Known) and each.hypotheses[0].effect in effects
+    ]
+    return max((each for each in every if _is_sure_alone(search, each)), key=lambda each: each.score, default=None)
+
+
+def _is_sure_alone(search: Search, each: Node) -> bool:
+    is_main = explained_by_formulas(search, each) >= search.criteria.form_explains
+    return is_main and not each.trial.refused and predicts(search, each) and is_for_sure(search, each)
 
 
 def _explains_far_more(search: Search, alone: Node, several: Node) -> bool:

@@ -7,13 +7,14 @@ functions of all sliders stand before them. Here an effect is one cause at all i
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from hexdbb.evidence.absent import Signatures
 from hexdbb.evidence.by_formulas import are_what_they_are
 from hexdbb.evidence.needed import best_of, needs
 from hexdbb.evidence.node import Node
@@ -28,6 +29,7 @@ from hexdbb.evidence.settling import (
     predicts,
 )
 from hexdbb.evidence.shortlist import shortlist
+from hexdbb.evidence.some_elements import at_those_seen, of_wrong_sign
 from hexdbb.evidence.trial import Member, Trial
 from hexdbb.learned import ALL
 
@@ -58,10 +60,46 @@ def or_at_several(search: Search, best: Node) -> Node:
         if is_settled:
             at_several = [each for each in at_several if each.share >= least]
         at_several.sort(key=lambda each: -each.log_evidence)
-        found += [_grown(search, each) for each in search.tried(fewer, at_several[: criteria.beam])]
+        found += [_grown(search, each) for each in _tried(search, fewer, at_several[: criteria.beam])]
     found = [each for each in found if _may_be_sure(search, each)]
     search.nodes += found
-    return best_of(search, best, found)
+    return _with_those_seen(search, best_of(search, best, found))
+
+
+def _with_those_seen(search: Search, node: Node) -> Node:
+    """Return a set whose effects at all elements are at those where they are seen, if that is better."""
+    for hypothesis in node.hypotheses:
+        if is_of_several(hypothesis):
+            member = node.member(hypothesis)
+            others = node.without(member)
+            node = _of_shapes_anew(search, node, (*others, member))
+            some = at_those_seen(search, search.node(others, near=node), (*others, member))
+            node = best_of(search, node, [some] if some is not None and _may_be_sure(search, some) else [])
+    return node
+
+
+def _of_shapes_anew(search: Search, node: Node, members: Sequence[Member]) -> Node:
+    """Return a set with the shapes of its last effect sought anew, in its stead, where that has more evidence."""
+    if not search.engine.absent.has_shape(_effect_of(members[-1].hypothesis)):
+        return node
+    trial = search.trials.with_shapes_anew(members)
+    if trial is node.trial:
+        return node
+    found = Node(trial, node.score + trial.log_evidence - node.trial.log_evidence)
+    search.nodes[:] = [found if each is node else each for each in search.nodes]
+    return found
+
+
+def _tried(search: Search, fewer: Node, every: Sequence[Scored]) -> Iterator[Node]:
+    """Yield sets with an effect at all elements, or at those where it is seen."""
+    for each in every:
+        whole = search.tried(fewer, [each])
+        if whole and not whole[0].trial.refused:
+            yield whole[0]
+            continue
+        members = as_one_cause(search, (*fewer.members, search.member(each)))
+        some = None if members is None else at_those_seen(search, fewer, members)
+        yield from whole if some is None else [some]
 
 
 def _starts(best: Node, is_settled: bool) -> Iterable[tuple[Member, ...]]:
@@ -123,27 +161,49 @@ def at_all_elements(search: Search, node: Node, screen: Screen, single: Sequence
     single : sequence of Scored, optional
         The same at single elements, where they were screened.
     """
-    table, whose = search.engine.absent.signatures(node.trial.model, search.known)
     single = single or known_beside(search, node.trial, screen)
-    columns: dict[str, list[int]] = defaultdict(list)
-    for place, (effect, *_) in enumerate(whose):
-        columns[effect].append(place)
-    found = []
-    for effect, at in columns.items():
-        elements = tuple(dict.fromkeys(whose[place][1] for place in at))
-        info = search.engine.base.info(effect)
-        if len(elements) < FEWEST:
-            continue
-        known = Known(effect, elements)
-        scored = screen.at_several(known, table[:, at])
-        best = max((each.share for each in single if _effect_of(each.hypothesis) == effect), default=0.0)
-        if scored.share - best <= search.criteria.form_variance:
-            continue
-        has_one_sign = all(is_one_sided(info, whose[place][2]) for place in at) and len(at) == len(elements)
-        alike = scored if has_one_sign else screen.at_several(known, _alike(table, whose, at))
-        if alike.share >= search.criteria.explained_min * scored.share:
-            found.append(alike)
-    return found
+    found: dict[str, Scored] = {}
+    for table, whose in _tables(search, node):
+        columns: dict[str, list[int]] = defaultdict(list)
+        for place, (effect, *_) in enumerate(whose):
+            columns[effect].append(place)
+        for effect, at in columns.items():
+            scored = _at_all(search, screen, single, table, whose, at)
+            if scored is not None and (effect not in found or scored.log_evidence > found[effect].log_evidence):
+                found[effect] = scored
+    return [*found.values()]
+
+
+def _tables(search: Search, node: Node) -> Iterator[Signatures]:
+    """Yield the signatures of the known effects beside a set, and of those with shapes for every start of these."""
+    absent, model = search.engine.absent, node.trial.model
+    yield absent.signatures(model, search.known)
+    if shaped := [name for name in search.known if absent.has_shape(name)]:
+        yield from (absent.signatures(model, shaped, each) for each in filter(None, search.criteria.shape_starts))
+
+
+def _at_all(
+    search: Search,
+    screen: Screen,
+    single: Sequence[Scored],
+    table: Floats,
+    whose: Sequence[tuple[str, str, str, float]],
+    at: Sequence[int],
+) -> Scored | None:
+    """Score an effect at all elements of a table; None where it explains no more so, or does not err alike."""
+    effect, criteria = whose[at[0]][0], search.criteria
+    elements = tuple(dict.fromkeys(whose[place][1] for place in at))
+    info = search.engine.base.info(effect)
+    if len(elements) < FEWEST:
+        return None
+    known = Known(effect, elements)
+    scored = screen.at_several(known, table[:, at])
+    best = max((each.share for each in single if _effect_of(each.hypothesis) == effect), default=0.0)
+    if scored.share - best <= criteria.form_variance:
+        return None
+    has_one_sign = all(is_one_sided(info, whose[place][2]) for place in at) and len(at) == len(elements)
+    alike = scored if has_one_sign else screen.at_several(known, _alike(table, whose, at))
+    return alike if alike.share >= criteria.explained_min * scored.share else None
 
 
 def _alike(table: Floats, whose: Sequence[tuple[str, str, str, float]], at: Sequence[int]) -> Floats:
@@ -181,15 +241,9 @@ def is_at_most(search: Search, trial: Trial) -> bool:
     effect = _effect_of(trial.members[-1].hypothesis)
     every = _elements(trial.members[-1])
     least = search.criteria.form_variance * search.trials.size(trial, Known(effect, every))
-    wrong = _of_wrong_sign(search, trial, effect)
+    wrong = of_wrong_sign(search, trial)
     there = (each for each in every if each not in wrong)
     return sum(search.trials.size(trial, Known(effect, (each,))) > least for each in there) >= FEWEST
-
-
-def _of_wrong_sign(search: Search, trial: Trial, effect: str) -> set[str]:
-    """Return the elements at which an effect of one sign has the other in a trial."""
-    info, values = search.engine.base.info(effect), zip(trial.model.parameters(), trial.model.values, strict=True)
-    return {p.element for p, value in values if p.effect == effect and is_one_sided(info, p.name) and value < 0.0}
 
 
 def is_of_several(hypothesis: Hypothesis) -> bool:

@@ -148,13 +148,12 @@ def _explains_by_formulas(search: Search, node: Node) -> bool:
 def _least_by_formulas(search: Search, node: Node) -> float:
     """Return what formulas must explain: more of several that leave something, or that nothing left out tests.
 
-    More also of an effect at several elements: sizes of its own at each are as free as a function.
+    Nearly all of an effect at several elements: sizes of its own at each are as free as a function.
     """
-    is_free = any(isinstance(each, Known) and len(each.elements) > 1 for each in node.hypotheses)
+    if any(isinstance(each, Known) and len(each.elements) > 1 for each in node.hypotheses):
+        return search.criteria.form_explains
     is_tested = is_complete(search, node) and not _leads_away(search, _held(search, node))
-    if node.faults == 1 or (is_tested and not is_free):
-        return search.criteria.formula_explains
-    return search.criteria.explained_min
+    return search.criteria.formula_explains if node.faults == 1 or is_tested else search.criteria.explained_min
 
 
 def _held(search: Search, node: Node) -> list[HeldOut]:

@@ -87,6 +87,20 @@ class Trials:
         known = (each.hypothesis.effect for each in members if isinstance(each.hypothesis, Known))
         return self.of(members, near=whole if any(map(self.engine.absent.has_shape, known)) else None)
 
+    def with_shapes_anew(self, members: Sequence[Member]) -> Trial:
+        """Fit a set as `of` does, the shapes of its last effect sought anew; keep what has more evidence.
+
+        Found alone, the time of a spike was that of whatever else was at fault too.
+        """
+        key = _key(members)
+        before = self._known.get(key)
+        found = self._about(tuple(members), self._fitted(members))
+        if before is not None and before.log_evidence >= found.log_evidence:
+            self._linear.pop(key, None)  # of what was found; made anew where it is asked for
+            return before
+        self._known[key] = found
+        return found
+
     def each_of(self, every: Iterable[Sequence[Member]], near: Trial | None = None) -> Iterator[Callable[[], Trial]]:
         """Fit several models with hypotheses beside each other, as many at once as there are cores.
 
@@ -261,12 +275,27 @@ class Trials:
         )
         if not shapes.any():
             return self.engine.fit(model)
-        model = model.with_free(model.free & ~one_for_all)
-        starts = self.criteria.shapes_for_all if one_for_all.any() else self.criteria.shape_starts
-        begun = [np.where(shapes, start * model.prior_sigma, model.values) for start in starts]
-        if one_for_all.any():  # such a shape is held, and each value of it is a fit of its own
-            return self._best_fit(model.with_values(each) for each in begun)
+        if one_for_all.any():
+            return self._with_one_shape_for_all(model, one_for_all)
+        begun = [np.where(shapes, start * model.prior_sigma, model.values) for start in self.criteria.shape_starts]
         return self.engine.fit(model.with_values(begun[0]), starts=begun[1:])
+
+    def _with_one_shape_for_all(self, model: Model, shapes: NDArray[np.bool_]) -> Fitted:
+        """Fit a model whose effects share their shapes among elements: one is held, each value a fit of its own.
+
+        Where an effect has two shapes, as a spike at reversals has its time and its travel, the second follows the
+        first: moved together, a spike that lasts was also one that takes millimetres to rise.
+        """
+        model, names = model.with_free(model.free & ~shapes), [each.name for each in model.parameters()]
+        best: Fitted | None = None
+        for name in dict.fromkeys(each for each, is_shape in zip(names, shapes, strict=True) if is_shape):
+            at = shapes & (np.array(names) == name)
+            start = model if best is None else best.model
+            held = (np.where(at, each * model.prior_sigma, start.values) for each in self.criteria.shapes_for_all)
+            found = self._best_fit(start.with_values(each) for each in held)
+            best = found if best is None or found.linear.log_evidence > best.linear.log_evidence else best
+        assert best is not None
+        return best
 
     def _best_fit(self, models: Iterable[Model]) -> Fitted:
         """Fit several models, and return the fit of most evidence."""

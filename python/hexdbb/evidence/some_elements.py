@@ -1,0 +1,118 @@
+"""One effect at some of its elements: three of six sliders that stick at every reversal, five of six drives that lag.
+
+Fitted at all of them, an effect shows where it is: elements at which it has hardly a size, or the sign that it cannot
+have, have none. A lag that all drives share is nearly a delay of the gauge, which geometry and forms take with either
+sign: the drive that lags the least then stands for none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from hexdbb.errors import RunError
+from hexdbb.evidence.node import Node
+from hexdbb.evidence.physical import is_one_sided
+from hexdbb.evidence.screen import Known
+from hexdbb.evidence.trial import Member, Trial
+
+if TYPE_CHECKING:
+    from hexdbb.evidence.search import Search
+
+TOGETHER = 4
+"""Elements from which on an effect at several is one cause: fewer are told one by one, each with a form of its own."""
+
+
+def at_those_seen(search: Search, fewer: Node, members: Sequence[Member]) -> Node | None:
+    """Return a set with an effect at the elements at which it is seen, where it explains most of what others leave.
+
+    Parameters
+    ----------
+    search : Search
+    fewer : Node
+        The set without the effect, or with it at fewer elements.
+    members : sequence of Member
+        Of the set, its last the effect at all its elements.
+
+    Returns
+    -------
+    Node or None
+        None where the effect explains less than half, or is seen at one element or at all.
+    """
+    try:
+        trial = _of_right_sign(search, search.trials.of(tuple(members)))
+        if not _explains_half(search, fewer, trial):
+            return None
+        seen = _seen(search, trial)
+        known = _effect(trial)
+        if not 2 <= len(seen) < len(search.engine.base.info(known.effect).elements):
+            return None
+        *others, _ = trial.members
+        apart = (Known(known.effect, (each,)) for each in seen)
+        last = [Known(known.effect, seen)] if len(seen) >= TOGETHER else [*apart]
+        found = (*others, *map(Member, last))
+        if len(found) > search.criteria.max_effects:
+            return None
+        _count_kin(search, last)
+        return search.node(found, near=fewer)
+    except RunError:
+        return None
+
+
+def _explains_half(search: Search, fewer: Node, trial: Trial) -> bool:
+    """Check that an effect explains half of what others leave: it is a main cause, and worth the fits beside it."""
+    return trial.left - 1.0 < 0.5 * (fewer.trial.left - 1.0)
+
+
+def _of_right_sign(search: Search, trial: Trial) -> Trial:
+    """Return a trial without the elements at which its last effect has the sign that it cannot have.
+
+    Where most have it, all are off by what they share, and only the one that is the farthest off is left out.
+    """
+    for _ in range(len(_effect(trial).elements) - 2):
+        wrong = of_wrong_sign(search, trial)
+        known, *others = _effect(trial), *trial.members[:-1]
+        if not wrong:
+            break
+        out = {min(wrong, key=lambda each: wrong[each])} if 2 * len(wrong) > len(known.elements) else wrong.keys()
+        left = tuple(each for each in known.elements if each not in out)
+        if len(left) < 2:
+            break
+        trial = search.trials.of((*others, Member(Known(known.effect, left))))
+    return trial
+
+
+def of_wrong_sign(search: Search, trial: Trial) -> dict[str, float]:
+    """Return the elements at which a trial's last effect has a sign that it cannot have, each with its value."""
+    known, model = _effect(trial), trial.model
+    info = search.engine.base.info(known.effect)
+    return {
+        each.element: float(value)
+        for each, value in zip(model.parameters(), model.values, strict=True)
+        if each.effect == known.effect
+        and each.element in known.elements
+        and is_one_sided(info, each.name)
+        and value < 0.0
+    }
+
+
+def _seen(search: Search, trial: Trial) -> tuple[str, ...]:
+    """Return the elements at which a trial's last effect is more than a form of what it is at the others."""
+    known = _effect(trial)
+    least = search.criteria.form_variance * search.trials.size(trial, known)
+    return tuple(each for each in known.elements if search.trials.size(trial, Known(known.effect, (each,))) > least)
+
+
+def _count_kin(search: Search, every: Sequence[Known]) -> None:
+    """Count the functions of single elements among the kin of an effect at several."""
+    for known in every:
+        if known.name not in search.kin:
+            search.kin[known.name] = set().union(
+                *(search.kin.get(Known(known.effect, (each,)).name, set()) for each in known.elements)
+            )
+
+
+def _effect(trial: Trial) -> Known:
+    hypothesis = trial.members[-1].hypothesis
+    assert isinstance(hypothesis, Known)
+    return hypothesis
