@@ -112,5 +112,13 @@ def of_drives(variables: Iterable[Variable]) -> Iterator[Variable]:
                 variable,
                 name=f"slider_{slider}_{variable.name}",
                 of_element=slider,
-                words=variable.words.replace("the slider", f"slider {slider}").replace("the leg", f"leg {slider}"),
+                words=_of_drive(variable.words, slider),
             )
+
+
+def _of_drive(words: str, slider: int) -> str:
+    """Return a variable's words with the slider or the leg that it belongs to."""
+    found = words.replace("since the reversal", f"since the reversal of slider {slider}")
+    for whose in ("slider", "leg"):
+        found = found.replace(f"the {whose}", f"{whose} {slider}")
+    return found if found != words else f"{words} of slider {slider}"

@@ -51,6 +51,8 @@ OF_MOUNTED = (*OF_BAR, *OF_PATH, *OF_TIME, *DRAGGED)
 OF_ELEMENT = (*OF_CARRIAGE, *OF_JOINT, *OF_SWING, *OF_PATH, *OF_BAR, *OF_TIME, *OF_OTHER, v.NEIGHBOUR_VELOCITY)
 RINGING = (v.SINCE_REVERSAL, SINCE_REVERSAL_EACH_WAY)
 """A drive that rings where it reverses couples into the gauge's cable."""
+DRAGGED_ALONG = (*RINGING, v.TRAVEL, TRAVEL_EACH_WAY)
+"""What stands on the base, or hangs on the platform, follows a drive's friction some way after it reverses."""
 OF_EACH_DRIVE = (v.POSITION, v.DIRECTION, v.VELOCITY, v.ACCELERATION, v.FORCE)
 
 _MOVING = (v.POSITION, v.VELOCITY, v.ACCELERATION, v.FORCE, v.DRIVE_LOAD, v.CARRIAGE_LOAD, v.JOINT_ANGLE, v.TURNING)
@@ -99,7 +101,7 @@ CROSSED |= {
         place: _besides(
             place,
             (
-                *(*OF_MOUNTED, *OF_BALL, *of_drives(OF_EACH_DRIVE)),
+                *(*OF_MOUNTED, *OF_BALL, *of_drives((*OF_EACH_DRIVE, *DRAGGED_ALONG))),
                 *_products(("time", "speed", "circle_direction"), (v.BAR_ANGLE, v.ANGLE, v.TIME, v.SPEED)),
             ),
         )

@@ -122,6 +122,39 @@ def test_effects_that_nearly_cancel_are_no_causes_for_sure() -> None:
     assert not [each for each in found.causes if each.verdict == "effect"]
 
 
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("name", "choices"),
+    [
+        ("sliders-stick", {"reversal_spike"}),
+        ("three-stick-rail-bows", {"straightness:2", "reversal_spike:1", "reversal_spike:4", "reversal_spike:5"}),
+        ("three-stick-gauge-drifts", {"bar_drift", "reversal_spike:2", "reversal_spike:3", "reversal_spike:6"}),
+    ],
+)
+def test_an_effect_is_named_where_it_is_seen(name: str, choices: set[str]) -> None:
+    """Sliders stick at their reversals for most of a second, six of them or three, beside a bow or a drift."""
+    found = found_in(name)
+    assert found.verdict == "effect"
+    assert {each.choice for each in found.causes} == choices
+
+
+@pytest.mark.long
+def test_of_six_drives_that_lag_apart_those_that_lag_most_are_named() -> None:
+    """Fitted at all six, the lags come out negative: what they share is nearly a delay of the gauge."""
+    found = found_in("drives-lag-apart")
+    assert found.verdict == "effect"
+    assert {"servo_lag:3", "servo_lag:6"} <= {each.choice for each in found.causes}
+    assert all(each.choice.startswith("servo_lag") for each in found.causes)
+
+
+@pytest.mark.long
+def test_six_sizes_that_explain_much_by_their_forms_are_no_cause_for_sure() -> None:
+    """A guideway yields sideways to the drag of its carriages; six lags, nearly one, followed it by their forms."""
+    found = found_in("rail-yields-to-drag")
+    assert found.verdict == "unknown"
+    assert not [each for each in found.causes if each.verdict == "effect"]
+
+
 def test_noise_that_lasts_for_some_readings_is_nothing_missing() -> None:
     """Each reading of single laps keeps half of the noise of the one before it."""
     assert found_in("lasting-noise").verdict == "none"

@@ -7,7 +7,7 @@ import re
 import numpy as np
 import pytest
 
-from hexdbb.learned import Curve, describe
+from hexdbb.learned import Curve, Learned, describe
 
 AT = np.linspace(100.0, 500.0, 41)
 RATE = np.linspace(-0.02, 0.02, 41)
@@ -85,3 +85,16 @@ def test_two_states_are_told_by_how_far_they_are_apart() -> None:
     form = describe(curve(ends, 6.0 * ends, column="leg_force.relay@7.1/14.5", unit=""))
     assert form.kind == "two states"
     assert numbers(form.text) == pytest.approx([12.0], rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("slider_3_position", "position of slider 3"),
+        ("slider_1_since_reversal_travel", "travel since the reversal of slider 1"),
+        ("slider_6_direction", "direction of travel of slider 6"),
+        ("slider_2_leg_force", "axial force of leg 2 per load"),
+    ],
+)
+def test_what_is_mounted_goes_by_a_drive_that_is_named(name: str, words: str) -> None:
+    assert Learned.parse(f"learned:cup:{name}").variable.words == words

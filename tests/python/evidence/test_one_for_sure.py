@@ -1,0 +1,59 @@
+"""Several causes that are not for sure, and the effect of one of them that is so alone."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from hexdbb.evidence import fine_enough
+from hexdbb.evidence.criteria import DEFAULT
+from hexdbb.evidence.fine_enough import or_one_place
+from hexdbb.evidence.node import Node
+from hexdbb.evidence.screen import Hypothesis, Known
+from hexdbb.evidence.trial import Member
+
+BALL, OTHERWISE = Known("ball_eccentricity", ("1",)), Known("ball_eccentricity", ("2",))
+BOW = Known("straightness", ("1",))
+
+
+def node_of(score: float, left: float, *hypotheses: Hypothesis) -> Node:
+    members, names = tuple(map(Member, hypotheses)), tuple(each.name for each in hypotheses)
+    trial: Any = SimpleNamespace(members=members, names=names, left=left, refused=(), forms=(), is_of_time=False)
+    return Node(trial, score)
+
+
+@pytest.fixture
+def chosen(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """Return what is chosen in place of a ball and a bow, where the ball otherwise is for sure and leaves so much."""
+
+    def choose(left: float, alone: Hypothesis = OTHERWISE, is_sure: bool = True) -> tuple[str, ...]:
+        several, one = node_of(-5.0, 5.0, BALL, BOW), node_of(-20.0, left, alone)
+        for name in ("is_for_sure", "predicts"):
+            monkeypatch.setattr(fine_enough, name, lambda _, node: node is one and is_sure)
+        for name in ("refined", "finely_tuned"):
+            monkeypatch.setattr(fine_enough, name, lambda _, node: node)
+        search: Any = SimpleNamespace(
+            nodes=[several, one],
+            criteria=DEFAULT,
+            root=SimpleNamespace(trial=SimpleNamespace(left=101.0)),
+            left_by_formulas=lambda trial: trial.left,
+        )
+        return or_one_place(search, several, several)[0].trial.names
+
+    return choose
+
+
+def test_an_effect_that_is_for_sure_alone_is_named_alone(chosen: Any) -> None:
+    """Its seat rocks: what that leaves is no bow."""
+    assert chosen(left=9.0) == (OTHERWISE.name,)
+
+
+@pytest.mark.parametrize(
+    "case",
+    [{"left": 20.0}, {"left": 9.0, "is_sure": False}, {"left": 9.0, "alone": Known("bar_gain", ("bar",))}],
+    ids=["explains less", "is not for sure", "is none of the causes"],
+)
+def test_another_leaves_the_causes_as_they_are(chosen: Any, case: dict[str, Any]) -> None:
+    assert chosen(**case) == (BALL.name, BOW.name)
