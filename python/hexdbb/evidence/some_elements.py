@@ -14,6 +14,7 @@ from hexdbb.errors import RunError
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.physical import is_one_sided
 from hexdbb.evidence.screen import Known
+from hexdbb.evidence.settling import explained
 from hexdbb.evidence.trial import Member, Trial
 
 if TYPE_CHECKING:
@@ -60,8 +61,14 @@ def at_those_seen(search: Search, fewer: Node, members: Sequence[Member]) -> Nod
 
 
 def _explains_half(search: Search, fewer: Node, trial: Trial) -> bool:
-    """Check that an effect explains half of what others leave: it is a main cause, and worth the fits beside it."""
-    return trial.left - 1.0 < 0.5 * (fewer.trial.left - 1.0)
+    """Check that an effect explains half of what others leave, and more than their forms may leave at most.
+
+    So it is a main cause, and worth the fits beside it.
+    """
+    explains = fewer.trial.left - trial.left
+    return explains > 0.5 * (fewer.trial.left - 1.0) and explains > search.criteria.form_variance * explained(
+        search, fewer.trial
+    )
 
 
 def _of_right_sign(search: Search, trial: Trial) -> Trial:
