@@ -6,20 +6,15 @@ functions of all sliders stand before them. Here an effect is one cause at all i
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import NDArray
-
-from hexdbb.evidence.absent import Signatures
+from hexdbb.evidence.all_elements import FEWEST, at_all_elements, effect_of
 from hexdbb.evidence.by_formulas import are_what_they_are
 from hexdbb.evidence.needed import best_of, needs
 from hexdbb.evidence.node import Node
-from hexdbb.evidence.physical import is_one_sided
-from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
+from hexdbb.evidence.screen import Hypothesis, Known, Scored
 from hexdbb.evidence.screened import known_beside
 from hexdbb.evidence.settling import (
     explained_by_formulas,
@@ -36,11 +31,6 @@ from hexdbb.learned import ALL
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search
 
-Floats = NDArray[np.float64]
-
-FEWEST = 4
-"""Elements at which an effect is seen that is one cause at all of them; a search finds fewer one by one."""
-
 
 def or_at_several(search: Search, best: Node) -> Node:
     """Return a set with an effect at all its elements, where that is better than what was found one by one.
@@ -49,7 +39,7 @@ def or_at_several(search: Search, best: Node) -> Node:
     have stood in for it. Where known effects, each at one element, explain all and predict, only what may be the one
     cause of all that several of them explain is looked at: of nearly all, where they are what they are by formulas.
     """
-    effects = [_effect_of(each) for each in best.hypotheses]
+    effects = [effect_of(each) for each in best.hypotheses]
     is_explained = is_complete(search, best) and best.is_known and not leaves_room(search, best)
     is_settled = is_explained and len({*effects}) == len(effects) and not is_doubtful(search, best)
     criteria, found = search.criteria, list[Node]()
@@ -80,7 +70,7 @@ def _with_those_seen(search: Search, node: Node) -> Node:
 
 def _of_shapes_anew(search: Search, node: Node, members: Sequence[Member]) -> Node:
     """Return a set with the shapes of its last effect sought anew, in its stead, where that has more evidence."""
-    if not search.engine.absent.has_shape(_effect_of(members[-1].hypothesis)):
+    if not search.engine.absent.has_shape(effect_of(members[-1].hypothesis)):
         return node
     trial = search.trials.with_shapes_anew(members)
     if trial is node.trial:
@@ -145,75 +135,6 @@ def beside(search: Search, node: Node) -> list[Scored]:
     return shortlist(every, criteria.later_fits, criteria.most_of_one_effect)
 
 
-def at_all_elements(search: Search, node: Node, screen: Screen, single: Sequence[Scored] = ()) -> list[Scored]:
-    """Return effects at all elements that explain more so than their forms may at the best one alone.
-
-    Effects of one value at each, of one sign by their nature. Others only where they err alike, one value for all
-    explaining most of what a value for each does: six leads, some long and some short, are as free as a function.
-
-    Parameters
-    ----------
-    search : Search
-    node : Node
-        Beside which they are screened, at the elements that it does not have.
-    screen : Screen
-        Of its linearisation.
-    single : sequence of Scored, optional
-        The same at single elements, where they were screened.
-    """
-    single = single or known_beside(search, node.trial, screen)
-    found: dict[str, Scored] = {}
-    for table, whose in _tables(search, node):
-        columns: dict[str, list[int]] = defaultdict(list)
-        for place, (effect, *_) in enumerate(whose):
-            columns[effect].append(place)
-        for effect, at in columns.items():
-            scored = _at_all(search, screen, single, table, whose, at)
-            if scored is not None and (effect not in found or scored.log_evidence > found[effect].log_evidence):
-                found[effect] = scored
-    return [*found.values()]
-
-
-def _tables(search: Search, node: Node) -> Iterator[Signatures]:
-    """Yield the signatures of the known effects beside a set, and of those with shapes for every start of these."""
-    absent, model = search.engine.absent, node.trial.model
-    yield absent.signatures(model, search.known)
-    if shaped := [name for name in search.known if absent.has_shape(name)]:
-        yield from (absent.signatures(model, shaped, each) for each in filter(None, search.criteria.shape_starts))
-
-
-def _at_all(
-    search: Search,
-    screen: Screen,
-    single: Sequence[Scored],
-    table: Floats,
-    whose: Sequence[tuple[str, str, str, float]],
-    at: Sequence[int],
-) -> Scored | None:
-    """Score an effect at all elements of a table; None where it explains no more so, or does not err alike."""
-    effect, criteria = whose[at[0]][0], search.criteria
-    elements = tuple(dict.fromkeys(whose[place][1] for place in at))
-    info = search.engine.base.info(effect)
-    if len(elements) < FEWEST:
-        return None
-    known = Known(effect, elements)
-    scored = screen.at_several(known, table[:, at])
-    best = max((each.share for each in single if _effect_of(each.hypothesis) == effect), default=0.0)
-    if scored.share - best <= criteria.form_variance:
-        return None
-    has_one_sign = all(is_one_sided(info, whose[place][2]) for place in at) and len(at) == len(elements)
-    alike = scored if has_one_sign else screen.at_several(known, _alike(table, whose, at))
-    return alike if alike.share >= criteria.explained_min * scored.share else None
-
-
-def _alike(table: Floats, whose: Sequence[tuple[str, str, str, float]], at: Sequence[int]) -> Floats:
-    """Return what an effect does where all its elements err alike, a column for each of its values."""
-    names = dict.fromkeys(whose[place][2] for place in at)
-    return np.stack(
-        [table[:, [place for place in at if whose[place][2] == name]].sum(axis=1) for name in names], axis=1
-    )
-
-
 def as_one_cause(search: Search, members: Sequence[Member]) -> tuple[Member, ...] | None:
     """Return a set, its last an effect at several elements, with the effect as one cause at all of them.
 
@@ -225,10 +146,10 @@ def as_one_cause(search: Search, members: Sequence[Member]) -> tuple[Member, ...
     *before, last = members
     if not is_of_several(last.hypothesis):
         return tuple(members)
-    effect = _effect_of(last.hypothesis)
+    effect = effect_of(last.hypothesis)
     every = tuple(search.engine.base.info(effect).elements)
-    there = {element for each in members if _effect_of(each.hypothesis) == effect for element in _elements(each)}
-    others = (each for each in before if _effect_of(each.hypothesis) != effect)
+    there = {element for each in members if effect_of(each.hypothesis) == effect for element in _elements(each)}
+    others = (each for each in before if effect_of(each.hypothesis) != effect)
     return (*others, Member(_of_all(search, effect, every))) if there == set(every) else None
 
 
@@ -238,7 +159,7 @@ def is_at_most(search: Search, trial: Trial) -> bool:
     Nor is it there with the sign that it cannot have: six drives that all lead, each by less than the limit of what is
     refused, undo a part of a gauge that is read late.
     """
-    effect = _effect_of(trial.members[-1].hypothesis)
+    effect = effect_of(trial.members[-1].hypothesis)
     every = _elements(trial.members[-1])
     least = search.criteria.form_variance * search.trials.size(trial, Known(effect, every))
     wrong = of_wrong_sign(search, trial)
@@ -249,10 +170,6 @@ def is_at_most(search: Search, trial: Trial) -> bool:
 def is_of_several(hypothesis: Hypothesis) -> bool:
     """Check for an effect at several elements."""
     return isinstance(hypothesis, Known) and len(hypothesis.elements) > 1
-
-
-def _effect_of(hypothesis: Hypothesis) -> str:
-    return hypothesis.effect if isinstance(hypothesis, Known) else ""
 
 
 def _elements(member: Member) -> tuple[str, ...]:

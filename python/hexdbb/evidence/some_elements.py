@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from hexdbb.errors import RunError
+from hexdbb.evidence.all_elements import FEWEST
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.physical import is_one_sided
 from hexdbb.evidence.screen import Known
@@ -19,9 +20,6 @@ from hexdbb.evidence.trial import Member, Trial
 
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search
-
-TOGETHER = 4
-"""Elements from which on an effect at several is one cause: fewer are told one by one, each with a form of its own."""
 
 
 def at_those_seen(search: Search, fewer: Node, members: Sequence[Member]) -> Node | None:
@@ -50,7 +48,7 @@ def at_those_seen(search: Search, fewer: Node, members: Sequence[Member]) -> Nod
             return None
         *others, _ = trial.members
         apart = (Known(known.effect, (each,)) for each in seen)
-        last = [Known(known.effect, seen)] if len(seen) >= TOGETHER else [*apart]
+        last = [Known(known.effect, seen)] if len(seen) >= FEWEST else [*apart]
         found = (*others, *map(Member, last))
         if len(found) > search.criteria.max_effects:
             return None
