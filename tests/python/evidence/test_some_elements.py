@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
 import pytest
 from tests.foreign_records import samples_of
 
@@ -44,7 +45,15 @@ def test_an_effect_is_told_at_each_element_where_it_is_seen(beside: Sequence[Mem
 
 
 def test_an_effect_that_is_seen_at_all_its_elements_is_one_at_all() -> None:
-    assert found_at("sliders-stick", (), SPIKES) is None
+    """The time in which six spikes decay is one for all, and most of a second, whatever their travel."""
+    search = search_in("sliders-stick", ("reversal_spike",))
+    whole = search.trials.of((SPIKES,))
+    values = zip(whole.model.parameters(), whole.model.values, strict=True)
+    times = {float(value) for each, value in values if (each.effect, each.name) == ("reversal_spike", "log_time")}
+    assert len(times) == 1
+    assert 0.5 < 0.05 * np.exp(times.pop()) < 1.5
+    assert whole.left < 0.05 * search.root.trial.left
+    assert at_those_seen(search, search.root, (SPIKES,)) is None
 
 
 def test_an_effect_that_explains_little_is_none() -> None:
