@@ -104,10 +104,9 @@ EffectPtr reversal_spike(const Context&) {
       .source = "friction at velocity reversal (quadrant glitch), ISO 230-4 Annex",
       .element_kind = "slider",
       .elements = kSixElements,
-      // Uncompensated quadrant glitches of machine tools are 5 to 20 um high and last some tens of ms; where nothing
-      // but a slow position loop or creeping grease ends them, a second and more: 2.7 s at the limit.
+      // Uncompensated quadrant glitches of machine tools are 5 to 20 um high and last some tens of ms.
       .parameters = {{.name = "height", .unit = "mm", .prior_sigma = 0.01, .limit = 0.5, .is_nonnegative = true},
-                     {.name = "log_time", .unit = "1", .prior_sigma = 1.2, .limit = 4.0, .is_shape = true},
+                     {.name = "log_time", .unit = "1", .prior_sigma = 0.7, .limit = 3.0, .is_shape = true},
                      // A spike that stands at once has a breakaway travel of a ten-thousandth of its height, the
                      // logarithm of which is within five standard deviations and the limit.
                      {.name = "log_travel", .unit = "1", .prior_sigma = 2.0, .limit = 10.0, .is_shape = true}},

@@ -42,7 +42,8 @@ class Criteria:
     shapes_for_all : tuple of float
         Values tried, in prior standard deviations, of a shape that all elements of an effect share: with a shape each,
         screws that warm alike were fitted as fast ones and slow ones. Half a standard deviation apart: between two, a
-        third of a time constant is gained or lost, which rates of their own make up for.
+        third of a time constant is gained or lost, which rates of their own make up for. Farther apart beyond two, up
+        to what sliders have that stick at reversals for most of a second: 50 ms at zero, 0.77 s at 3.9.
     shape_rounds : int
         Steps of Gauss and Newton for shapes of users' effects: enough to compare; what is added is fitted on.
     constant_rounds : int
@@ -290,7 +291,7 @@ class Criteria:
     near_form: float = 0.5
     most_homes: int = 3
     shape_starts: tuple[float, ...] = (-1.5, 0.0, 1.5)
-    shapes_for_all: tuple[float, ...] = (-2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0)
+    shapes_for_all: tuple[float, ...] = (-2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0, 2.6, 3.2, 3.9)
     shape_rounds: int = 3
     constant_rounds: int = 3
     least_seen: float = 0.05

@@ -189,5 +189,5 @@ def known_for(search: Search, names: list[str]) -> list[Known]:
         if kin & set(names):
             effect, _, elements = name.partition(":")
             every = tuple(search.engine.base.info(effect).elements)
-            found.append(Known(effect, tuple(elements.split(",")) if elements else every, not elements))
+            found.append(Known(effect, tuple(elements.split(":")) if elements else every, not elements))
     return found

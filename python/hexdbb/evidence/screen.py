@@ -35,7 +35,7 @@ class Known:
     @property
     def name(self) -> str:
         """Name, as `hexdbb add` takes it."""
-        return self.effect if self.is_whole else f"{self.effect}:{','.join(self.elements)}"
+        return self.effect if self.is_whole else ":".join((self.effect, *self.elements))
 
 
 Hypothesis = Known | Learned

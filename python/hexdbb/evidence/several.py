@@ -63,7 +63,7 @@ def _with_those_seen(search: Search, node: Node) -> Node:
             member = node.member(hypothesis)
             others = node.without(member)
             node = _of_shapes_anew(search, node, (*others, member))
-            some = at_those_seen(search, search.node(others, near=node), (*others, member))
+            some = at_those_seen(search, search.node(others, near=node), (*others, member), one_by_one=True)
             node = best_of(search, node, [some] if some is not None and _may_be_sure(search, some) else [])
     return node
 

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from hexdbb.evidence.search import Search
 
 
-def at_those_seen(search: Search, fewer: Node, members: Sequence[Member]) -> Node | None:
+def at_those_seen(search: Search, fewer: Node, members: Sequence[Member], *, one_by_one: bool = False) -> Node | None:
     """Return a set with an effect at the elements at which it is seen, where it explains most of what others leave.
 
     Parameters
@@ -32,6 +32,8 @@ def at_those_seen(search: Search, fewer: Node, members: Sequence[Member]) -> Nod
         The set without the effect, or with it at fewer elements.
     members : sequence of Member
         Of the set, its last the effect at all its elements.
+    one_by_one : bool, optional
+        Whether only so few elements are meant as are told one by one: of more it is simpler to say that all have it.
 
     Returns
     -------
@@ -44,7 +46,8 @@ def at_those_seen(search: Search, fewer: Node, members: Sequence[Member]) -> Nod
             return None
         seen = _seen(search, trial)
         known = _effect(trial)
-        if not 2 <= len(seen) < len(search.engine.base.info(known.effect).elements):
+        most = FEWEST if one_by_one else len(search.engine.base.info(known.effect).elements)
+        if not 2 <= len(seen) < most:
             return None
         *others, _ = trial.members
         apart = (Known(known.effect, (each,)) for each in seen)

@@ -147,9 +147,9 @@ def _named(grade: str, found: Sequence[Named], label: Label, labels: Sequence[La
                 return "lead"
             right = {str(number) for number in label.elements}
             for alike in each.alike:
-                elements += "," + alike.partition(":")[2]
+                elements += ":" + alike.partition(":")[2]
             neighbours = {str(n) for e in label.equivalents if e.effect for n in e.elements or ()}
-            named = set(elements.split(","))
+            named = set(elements.split(":"))
             return "right" if not right or effect != label.kind or named & (right | neighbours) else "element"
         if each.grade == "ambiguous" and rivals & accepted:
             return "ambiguous"
