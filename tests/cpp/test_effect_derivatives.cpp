@@ -51,9 +51,9 @@ TEST_P(EffectDerivatives, AgainstDifferences) {
   ASSERT_EQ(predicted.first_failure(), -1);
   for (int value = first; value < first + count; ++value) {
     // Of two steps (Richardson): what decays within milliseconds bends within one.
-    const Eigen::VectorXd slope =
-        (4.0 * difference(model, samples, value, 0.5 * steps[value]) - difference(model, samples, value, steps[value])) /
-        3.0;
+    const Eigen::VectorXd whole = difference(model, samples, value, steps[value]);
+    const Eigen::VectorXd half = difference(model, samples, value, 0.5 * steps[value]);
+    const Eigen::VectorXd slope = (4.0 * half - whole) / 3.0;
     const double largest = slope.cwiseAbs().maxCoeff();
     ASSERT_GT(largest, 0.0) << "value " << value - first << " has no effect anywhere";
     // All readings of the differences are solved to the kinematics' tolerance, which the steps divide: 8/3 and 1/3 of it.
