@@ -164,7 +164,7 @@ class Criteria:
         which formulas are said to explain nearly all: that of a joint which stood in for lobes of the other leg's joint
         explained 0.65. Two that stood in for one other effect explained 0.97: of several it is not enough. The same of
         an effect at several elements, to be named for sure: of five true ones it was 0.93 and more, of lags of six
-        drives that stood in for a guideway that yields 0.78.
+        drives that stood in for a guideway that yields 0.82.
     formula_explains : float
         Part of the unexplained that the formulas of several effects, or of one so excused, or that no circles left out
         test (`leads_away`), must explain to be named for sure: of one 20 % off, the largest that the calibration has,
@@ -229,7 +229,8 @@ class Criteria:
         error: a true pair erred by 0.28 of it, the same with a wrong element by 0.49 and more. The same part of what
         several causes leave that explain less than `explained_min`: one function that leaves less is a lead in their
         place, whether it predicts or not. The same part of what an effect at all elements misses: at one of them it
-        missed 0.31 of it where that element alone was at fault.
+        missed 0.31 of it where that element alone was at fault. The same part of what is left without an effect from
+        which on it is told at those of its elements where it is seen.
     most_refinements : int
         Functions that describe the forms of the causes found, at most: one for each of six legs, and two of all.
     refined_by : float

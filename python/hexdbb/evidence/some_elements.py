@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 def at_those_seen(search: Search, fewer: Node, members: Sequence[Member], *, one_by_one: bool = False) -> Node | None:
-    """Return a set with an effect at the elements at which it is seen, where it explains most of what others leave.
+    """Return a set with an effect at the elements at which it is seen, where it is a main cause.
 
     Parameters
     ----------
@@ -38,11 +38,11 @@ def at_those_seen(search: Search, fewer: Node, members: Sequence[Member], *, one
     Returns
     -------
     Node or None
-        None where the effect explains less than half, or is seen at one element or at all.
+        None where the effect is no main cause, or is seen at one element or at all.
     """
     try:
         trial = _of_right_sign(search, search.trials.of(tuple(members)))
-        if not _explains_half(search, fewer, trial):
+        if not _is_main(search, fewer, trial):
             return None
         seen = _seen(search, trial)
         known = _effect(trial)
@@ -61,15 +61,14 @@ def at_those_seen(search: Search, fewer: Node, members: Sequence[Member], *, one
         return None
 
 
-def _explains_half(search: Search, fewer: Node, trial: Trial) -> bool:
-    """Check that an effect explains half of what others leave, and more than their forms may leave at most.
+def _is_main(search: Search, fewer: Node, trial: Trial) -> bool:
+    """Check that with an effect far less is left than without it, by more than the forms of the others may leave.
 
     So it is a main cause, and worth the fits beside it.
     """
-    explains = fewer.trial.left - trial.left
-    return explains > 0.5 * (fewer.trial.left - 1.0) and explains > search.criteria.form_variance * explained(
-        search, fewer.trial
-    )
+    criteria, before = search.criteria, fewer.trial
+    is_less = trial.left - 1.0 < criteria.far_better * (before.left - 1.0)
+    return is_less and before.left - trial.left > criteria.form_variance * explained(search, before)
 
 
 def _of_right_sign(search: Search, trial: Trial) -> Trial:
