@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from hexdbb.evidence.last_resort import needs_no_other
+from hexdbb.evidence.last_resort import as_much_as, needs_no_other
 from hexdbb.evidence.needed import explains_more
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.refine import finely_tuned
@@ -48,7 +48,9 @@ def or_at_each_element(search: Search, node: Node) -> Node:
     ranked = Screen(screen.sums, search.criteria, few).ranked([*varying(_every(search), search.engine.readings)])
     best = {each.name: each for each in reversed(ranked)}
     chosen = [each for each in ranked if best[each.name] is each][:FITTED]
-    tried = search.tried(search.root, [screen.scored(each) for each in chosen])
+    least = as_much_as(search, node, len(search.engine.readings))
+    scored = (screen.scored(each) for each in chosen)
+    tried = search.tried(search.root, [each for each in scored if each.log_evidence >= least])
     most = search.root.trial.left - search.criteria.form_explains * (search.root.trial.left - 1.0)
     found = [finely_tuned(search, each) for each in tried if each.trial.left < most]
     better = [each for each in found if _stands_before(search, each, node)]

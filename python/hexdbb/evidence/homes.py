@@ -32,6 +32,10 @@ AT_ONCE = 32
 time of many of ten, and its copies fill no more than a core's cache."""
 
 
+ROUNDING = 1e-12
+"""Part of a function's square below which what geometry does not imitate is rounding: thousands of sums' worth."""
+
+
 @dataclass(frozen=True)
 class Home:
     """A hypothesis that contains a signature, how much of it, and the RMS of the push (mm) per signature's unit.
@@ -74,25 +78,24 @@ class Homes:
         # Values that the readings do not see within their priors cannot imitate anything.
         seen = values * len(linear.residual) > len(self.rows)
         self._absorbed = thin.own @ (vectors[:, seen] / np.sqrt(values[seen]))
-        self._spaces, bases = [], []
+        self._spaces, kept_tables = [], []
         every = [*hypotheses, *of_forms]
         for first in range(0, len(every), AT_ONCE):
             spaces = [thinned.signature(each) for each in every[first : first + AT_ONCE]]
             ends = np.cumsum([space.table.shape[1] for space in spaces])
-            visible_of_all = self._visible(np.hstack([space.table for space in spaces]).astype(np.float64))
-            for space, visible in zip(spaces, np.split(visible_of_all, ends[:-1], axis=1), strict=True):
-                values, vectors = np.linalg.eigh(visible.T @ visible)
-                kept = values > 1e-9 * values[-1]
-                if not kept.any():  # the model's own values imitate it whole: it contains nothing
-                    continue
-                half = vectors[:, kept] / np.sqrt(values[kept])
-                self._spaces.append((space, half))
-                bases.append((visible @ half).astype(np.float32))
-        self._bases = np.hstack(bases) if bases else np.empty((len(self.rows), 0), np.float32)
-        """Axes of all hypotheses side by side; shares of a signature are compared to a thousandth."""
-        widths = [half.shape[1] for _, half in self._spaces]
-        self._first = np.cumsum([0, *widths[:-1]])
-        """First of each hypothesis' axes among those of all."""
+            tables = np.hstack([space.table for space in spaces]).astype(np.float64)
+            imitated = np.split(self._absorbed.T @ tables, ends[:-1], axis=1)
+            for space, table, own in zip(spaces, np.split(tables, ends[:-1], axis=1), imitated, strict=True):
+                square = table.T @ table
+                values, vectors = np.linalg.eigh(square - own.T @ own)
+                kept = values > max(1e-9 * values[-1], ROUNDING * float(np.trace(square)))
+                if kept.any():  # else the model's own values imitate it whole: it contains nothing
+                    self._spaces.append((space, vectors[:, kept] / np.sqrt(values[kept])))
+                    kept_tables.append(space.table)
+        self._tables = np.hstack(kept_tables) if kept_tables else np.empty((len(self.rows), 0), np.float32)
+        """Functions of all hypotheses side by side; shares of a signature are compared to a thousandth."""
+        self._first = np.cumsum([0, *(len(half) for _, half in self._spaces)])[:-1]
+        """First of each hypothesis' functions among those of all."""
         self._words = sum(space.hypothesis not in of_forms for space, _ in self._spaces)
         """How many are words for an effect: they stand before those of forms alone."""
 
@@ -111,39 +114,44 @@ class Homes:
     def _near(self, signatures: Floats, least: float, count: int) -> list[list[Home]]:
         """Return the nearest of the first so many hypotheses."""
         explained, along = self._explained(signatures)
-        return [self._nearest(*each, least) for each in zip(explained[:count].T, along.T, strict=True)]
+        return [
+            self._nearest(shares[:count], [each[:, place] for each in along], least)
+            for place, shares in enumerate(explained.T)
+        ]
 
-    def _explained(self, signatures: Floats) -> tuple[Floats, Floats]:
-        """Return how much of each signature every hypothesis contains, (hypotheses, m), and its part along all axes."""
+    def _explained(self, signatures: Floats) -> tuple[Floats, list[Floats]]:
+        """Return how much of each signature every hypothesis contains, (hypotheses, m), and its part along its axes."""
         if not self._spaces:
-            return np.zeros((0, signatures.shape[1])), np.zeros((0, signatures.shape[1]))
+            return np.zeros((0, signatures.shape[1])), []
         whole = signatures[self.rows]
         own = self._visible(whole)
         total = np.sum(own**2, axis=0)
         shown = total > 1e-9 * np.sum(whole**2, axis=0)
+        # W'(I - A A')s is what a space and a signature have in common beside what geometry imitates of either.
         unit = np.sqrt(np.where(total > 0.0, total, 1.0))
-        along: Floats = (self._bases.T @ (own / unit).astype(np.float32)).astype(np.float64) * unit
-        squares = np.add.reduceat(along**2, self._first, axis=0)
+        cross = (self._tables.T @ (own / unit).astype(np.float32)).astype(np.float64) * unit
+        parts = np.split(cross, self._first[1:])
+        along = [half.T @ part for (_, half), part in zip(self._spaces, parts, strict=True)]
+        squares = np.array([np.sum(each**2, axis=0) for each in along])
         return np.divide(squares, total, out=np.zeros_like(squares), where=shown), along
 
     def _visible(self, signature: Floats) -> Floats:
         left: Floats = signature - self._absorbed @ (self._absorbed.T @ signature)
         return left
 
-    def _nearest(self, explained: Floats, along: Floats, same: float) -> list[Home]:
+    def _nearest(self, explained: Floats, along: Sequence[Floats], same: float) -> list[Home]:
         best = float(explained[: self._words].max(initial=0.0))
         least = max(min(same, best - (1.0 - same)), self.criteria.near_form)
-        near = [self._home(place, float(explained[place]), along) for place in np.flatnonzero(explained >= least)]
+        there = np.flatnonzero(explained >= least).tolist()
+        near = [self._home(place, float(explained[place]), along[place]) for place in there]
         # What is constant is a function of time too, and its form does not go wrong in time.
         constant = {each.hypothesis.place for each in near if each.hypothesis.variable.is_constant}
         near = [each for each in near if not (each.hypothesis.is_of_time and each.hypothesis.place in constant)]
         return sorted(near, key=lambda each: (each.hypothesis.variable.columns, -each.explained))
 
-    def _home(self, place: np.intp, explained: float, along: Floats) -> Home:
+    def _home(self, place: int, explained: float, along: Floats) -> Home:
         space, half = self._spaces[place]
-        first = self._first[place]
-        rms_mm = space.rms_mm(half @ along[first : first + half.shape[1]])
-        return Home(space.hypothesis, explained, rms_mm, bool(place >= self._words))
+        return Home(space.hypothesis, explained, space.rms_mm(half @ along), place >= self._words)
 
 
 def discrepancy(

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from hexdbb.errors import RunError
 from hexdbb.evidence.admissible import Checked, check
 from hexdbb.evidence.beside import with_known_beside
+from hexdbb.evidence.by_formulas import are_what_they_are
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.fine_enough import or_one_fine_enough
@@ -87,6 +88,7 @@ class Search:
         self.screened_known: dict[int, list[Scored]] = {}
         """Known effects screened beside trials, by the identity of these, all of which are kept."""
         self._by_formulas: dict[int, float] = {}
+        self._sure_together: Node | None = None
 
     @cached_property
     def kin(self) -> dict[str, set[str]]:
@@ -131,9 +133,11 @@ class Search:
             children = self._needed(child for node in starts for child in self.expand(node, learns))
             beam = self._kept(children)
             best = best_of(self, best, (each for each in beam if predicts(self, each)))
-            if size == 0 and self.learns and not (best.members and best.is_known):
+            if size == 0 and self._sure_together is not None:
+                together = best = self._sure_together
+            elif size == 0 and self.learns and not (best.members and best.is_known):
                 best = or_one_fine_enough(self, best)
-            if size == 0 and self._asks_for_sets(best):
+            if size == 0 and best is not together and self._asks_for_sets(best):
                 together = or_known_together(self, best)
                 # Several that leave something stand in for what nobody knows: what is learned may still be better.
                 best = together if is_complete(self, together) else best
@@ -175,8 +179,14 @@ class Search:
         if key not in self._expanded:
             if len(self._expanded) >= self.criteria.most_expansions:
                 return []
-            self._expanded[key] = self._children(node, learns)
-            self.nodes += self._expanded[key]
+            screen = self.screen(node)
+            found = self._children(node, screen, learns)
+            self.nodes += found
+            if learns and not any(settles(self, each) for each in found) and not self._are_known(node, found):
+                further = self._further(node, screen)
+                self.nodes += further
+                found += further
+            self._expanded[key] = sorted(found, key=lambda each: -each.score)
         return self._expanded[key]
 
     def node(self, members: Sequence[Member], near: Node) -> Node:
@@ -239,18 +249,32 @@ class Search:
             return any(each.is_but_finer(learned) or each.is_at_the_rail_of(learned) for each in homes)
         return any(each.is_of_time and (each.place, each.element) == (learned.place, learned.element) for each in homes)
 
-    def _children(self, node: Node, learns: bool) -> list[Node]:
-        screen = self.screen(node)
+    def _children(self, node: Node, screen: Screen, learns: bool) -> list[Node]:
         known, learned = screened(self, node.trial, screen, learns=learns)
-        count = self.criteria.full_fits if node is self.root else self.criteria.later_fits
-        most = self.criteria.most_of_one_effect
+        count, most = self._fits_of(node), self.criteria.most_of_one_effect
         chosen = [*shortlist(known, count, most), *shortlist(learned, count, most)]
         found = self.tried(node, [*chosen, *in_other_words(self, known, learned, chosen)])
-        if learns and not any(settles(self, each) for each in found):
-            if node is self.root:
-                found += self.tried(node, [each for each in known if self._is_of_all(each) and each not in chosen])
-            found += self.tried(node, shortlist(screened_further(self, node.trial, screen), count, most))
-        return sorted(found, key=lambda each: -each.score)
+        if learns and node is self.root and not any(settles(self, each) for each in found):
+            found += self.tried(node, [each for each in known if self._is_of_all(each) and each not in chosen])
+        return found
+
+    def _further(self, node: Node, screen: Screen) -> list[Node]:
+        further = screened_further(self, node.trial, screen)
+        return self.tried(node, shortlist(further, self._fits_of(node), self.criteria.most_of_one_effect))
+
+    def _fits_of(self, node: Node) -> int:
+        return self.criteria.full_fits if node is self.root else self.criteria.later_fits
+
+    def _are_known(self, node: Node, alone: Sequence[Node]) -> bool:
+        """Check for known effects, chosen together, that are what they are by formulas: they are looked at first.
+
+        They must have more evidence than whatever was tried alone. Finer functions, and those of more states, are then
+        only more values that say the same.
+        """
+        if node is self.root and alone:
+            found = or_known_together(self, max(alone, key=lambda each: each.score))
+            self._sure_together = found if are_what_they_are(self, found) else None
+        return node is self.root and self._sure_together is not None
 
     def _is_of_all(self, scored: Scored) -> bool:
         """Check for an effect that all legs or sliders share, at the machine's end of the measuring loop.

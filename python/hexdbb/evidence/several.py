@@ -38,12 +38,16 @@ def or_at_several(search: Search, best: Node) -> Node:
     It is looked for beside nothing, and beside the known effects of the best set, all or less one of them, which may
     have stood in for it. Where known effects, each at one element, explain all and predict, only what may be the one
     cause of all that several of them explain is looked at: of nearly all, where they are what they are by formulas.
+    Nothing, where one effect at two elements is so: at all of them it says that too, and the rest is none of its sizes.
     """
     effects = [effect_of(each) for each in best.hypotheses]
     is_explained = is_complete(search, best) and best.is_known and not leaves_room(search, best)
-    is_settled = is_explained and len({*effects}) == len(effects) and not is_doubtful(search, best)
+    is_by_formulas, are_distinct = are_what_they_are(search, best), len({*effects}) == len(effects)
+    if is_explained and is_by_formulas and not are_distinct:
+        return best
+    is_settled = is_explained and are_distinct and not is_doubtful(search, best)
     criteria, found = search.criteria, list[Node]()
-    least = criteria.form_explains if are_what_they_are(search, best) else criteria.explained_min
+    least = criteria.form_explains if is_by_formulas else criteria.explained_min
     for start in _starts(best, is_settled):
         fewer = search.node(start, near=best)
         at_several = at_all_elements(search, fewer, search.screen(fewer))

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.evidence.last_resort import axes_along, needs_no_other
+from hexdbb.evidence.last_resort import as_much_as, axes_along, needs_no_other
 from hexdbb.evidence.marginal import log_evidences
 from hexdbb.evidence.needed import needs_all
 from hexdbb.evidence.node import Node
@@ -65,7 +65,8 @@ def or_at_two_elements(search: Search, node: Node) -> Node:
     if not search.learns or (needs_no_other(search, node) and not (_is_at_more_elements(node) or _is_any_drift(node))):
         return node
     pairs = best_pairs(search)
-    worth = [each for each in pairs[:FITTED] if each.log_evidence >= NEAR * pairs[0].log_evidence]
+    least = max(NEAR * pairs[0].log_evidence, as_much_as(search, node, len(search.thinned.rows)))
+    worth = [each for each in pairs[:FITTED] if each.log_evidence >= least]
     found = (_fitted(search, each) for each in worth)
     better = [each for each in found if each is not None and _stands_before(search, each, node)]
     search.nodes += better
