@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from hexdbb.errors import RunError
+from hexdbb.evidence.last_resort import as_much_as
 from hexdbb.evidence.needed import best_of, by_formulas_instead, needs, needs_all
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.screened import known_sets
@@ -23,6 +24,10 @@ from hexdbb.evidence.trial import Member
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search
 
+LEAST = 0.6
+"""Part of what the best's explained squares are worth as evidence that a set must have to first order to be fitted:
+sets that were better than it had 0.7 and more, those of one fault that none of them is 0.02 to 0.5."""
+
 
 def or_known_together(search: Search, best: Node) -> Node:
     """Return the best set of known effects, chosen together, where it is better than what explains most alone.
@@ -32,7 +37,10 @@ def or_known_together(search: Search, best: Node) -> Node:
     found = [best]
     alone = {each.hypotheses[0]: each for each in search.nodes if explains_all_alone(search, each)}
     predicts_alone = not all(_stands_by_form(search, each) for each in alone.values())
+    least = as_much_as(search, best, len(search.engine.readings), LEAST)
     for together in known_sets(search, 2 if predicts_alone else search.criteria.max_effects):
+        if together.log_evidence < least:
+            continue
         # Nothing is left for one more where fewer explain all, and predict it as well as they explain it.
         if any(len(each.members) < len(together.members) and leaves_nothing(search, each) for each in found[1:]):
             break

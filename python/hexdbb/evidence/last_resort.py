@@ -53,13 +53,13 @@ def needs_no_other(search: Search, best: Node) -> bool:
     return all(each.after <= max(enough, each.expected) for each in held)
 
 
-def as_much_as(search: Search, node: Node, rows: int) -> float:
-    """Return the evidence to first order, on so many rows, below which no function explains as much as a set does.
+def as_much_as(search: Search, node: Node, rows: int, part: float = AS_MUCH) -> float:
+    """Return the evidence to first order, on so many rows, below which nothing explains as much as a set does.
 
-    What a set explains, counted as screening does, less what the values of a function cost.
+    A part of what the set explains, counted as screening does: the rest is what values cost.
     """
     explained: float = (search.root.trial.left - node.trial.left) / search.screen(search.root).temper
-    return AS_MUCH * 0.5 * rows * explained
+    return part * 0.5 * rows * explained
 
 
 LAST_RESORTS: tuple[tuple[Screened, Callable[[Search, Node], bool]], ...] = (

@@ -199,7 +199,13 @@ def in_other_words(search: Search, known: list[Scored], learned: list[Scored], c
 
 
 def known_sets(search: Search, most: int) -> list[Together]:
-    """Return the sets of two to so many known effects that are worth a full fit, small ones first."""
+    """Return the sets of two to so many known effects that are worth a full fit, small ones first; kept."""
+    if most not in search.known_sets:
+        search.known_sets[most] = _known_sets(search, most)
+    return search.known_sets[most]
+
+
+def _known_sets(search: Search, most: int) -> list[Together]:
     model, engine, criteria = search.root.trial.model, search.engine, search.criteria
     tables = [engine.absent.signatures(model, search.known)]
     if shaped := [name for name in search.known if engine.absent.has_shape(name)]:

@@ -38,6 +38,7 @@ from hexdbb.evidence.several import as_one_cause, is_at_most, is_of_several, or_
 from hexdbb.evidence.shortlist import shortlist
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.thinned import Thinned
+from hexdbb.evidence.together import Together
 from hexdbb.evidence.trial import Member, Trial
 from hexdbb.evidence.trials import Trials
 from hexdbb.learned import ALL, Learned, settling
@@ -87,6 +88,8 @@ class Search:
         self._first_errors: dict[int, float] = {}
         self.screened_known: dict[int, list[Scored]] = {}
         """Known effects screened beside trials, by the identity of these, all of which are kept."""
+        self.known_sets: dict[int, list[Together]] = {}
+        """Sets of known effects beside nothing, by how many there are at most."""
         self._by_formulas: dict[int, float] = {}
         self._sure_together: Node | None = None
 
