@@ -48,9 +48,11 @@ def needs_no_other(search: Search, best: Node) -> bool:
     if not best.trial.left < search.criteria.leaves_more:
         return False
     checked, enough = search.checked(best), search.criteria.predicted_to
-    # What errs no more than its fit expects errs by what the other readings do not determine: nothing errs less there.
+    # What errs no more than its fit expects errs by what the other readings do not determine. Nothing errs less there,
+    # but what is less free: a ball that goes anywhere with the angle stood for two balls, each with a law of its own.
+    along_one = axes_along(best) <= len(best.members)
     held = (checked.heldout[each] for each in checked.claimed)
-    return all(each.after <= max(enough, each.expected) for each in held)
+    return all(each.after <= (max(enough, each.expected) if along_one else enough) for each in held)
 
 
 def as_much_as(search: Search, node: Node, rows: int, part: float = AS_MUCH) -> float:

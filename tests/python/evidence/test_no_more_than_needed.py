@@ -60,14 +60,24 @@ def test_known_effects_that_explain_a_part_are_not_fitted_together(monkeypatch: 
 
 
 @pytest.mark.parametrize(
-    ("after", "expected", "enough"), [(1.1, 1.0, True), (1.5, 1.0, False), (3.4, 27.0, True), (5.0, 4.0, False)]
+    ("name", "after", "expected", "enough"),
+    [
+        ("learned:leg:2:joint_angle", 1.1, 1.0, True),
+        ("learned:leg:2:joint_angle", 1.5, 1.0, False),
+        ("learned:leg:2:joint_angle", 3.4, 27.0, True),
+        ("learned:leg:2:joint_angle", 5.0, 4.0, False),
+        ("learned:ball:angle", 1.1, 1.0, True),
+        ("learned:ball:angle", 3.4, 27.0, False),
+    ],
 )
-def test_what_errs_no_more_than_its_fit_expects_needs_no_other(
-    monkeypatch: pytest.MonkeyPatch, after: float, expected: float, enough: bool
+def test_what_errs_no_more_than_its_fit_expects_along_one_axis_needs_no_other(
+    monkeypatch: pytest.MonkeyPatch, name: str, after: float, expected: float, enough: bool
 ) -> None:
     held = SimpleNamespace(after=after, expected=expected)
     checked = SimpleNamespace(claimed=("circle",), heldout={"circle": held})
     search = SimpleNamespace(criteria=DEFAULT, checked=lambda _: checked)
     monkeypatch.setattr(last_resort, "is_complete", lambda *_: True)
-    best = SimpleNamespace(is_known=False, trial=SimpleNamespace(left=1.02))
+    best = SimpleNamespace(
+        is_known=False, trial=SimpleNamespace(left=1.02), members=[name], hypotheses=[Learned.parse(name)]
+    )
     assert last_resort.needs_no_other(search, best) is enough  # type: ignore[arg-type]
