@@ -48,7 +48,7 @@ def or_at_each_element(search: Search, node: Node) -> Node:
     ranked = Screen(screen.sums, search.criteria, few).ranked([*varying(_every(search), search.engine.readings)])
     best = {each.name: each for each in reversed(ranked)}
     chosen = [each for each in ranked if best[each.name] is each][:FITTED]
-    least = as_much_as(search, node, len(search.engine.readings))
+    least = as_much_as(search, node)
     scored = (screen.scored(each) for each in chosen)
     tried = search.tried(search.root, [each for each in scored if each.log_evidence >= least])
     most = search.root.trial.left - search.criteria.form_explains * (search.root.trial.left - 1.0)

@@ -37,7 +37,7 @@ def or_known_together(search: Search, best: Node) -> Node:
     found = [best]
     alone = {each.hypotheses[0]: each for each in search.nodes if explains_all_alone(search, each)}
     predicts_alone = not all(_stands_by_form(search, each) for each in alone.values())
-    least = as_much_as(search, best, len(search.engine.readings), LEAST)
+    least = as_much_as(search, best, part=LEAST)
     for together in known_sets(search, 2 if predicts_alone else search.criteria.max_effects):
         if together.log_evidence < least:
             continue

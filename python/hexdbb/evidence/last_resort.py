@@ -55,11 +55,12 @@ def needs_no_other(search: Search, best: Node) -> bool:
     return all(each.after <= (max(enough, each.expected) if along_one else enough) for each in held)
 
 
-def as_much_as(search: Search, node: Node, rows: int, part: float = AS_MUCH) -> float:
-    """Return the evidence to first order, on so many rows, below which nothing explains as much as a set does.
+def as_much_as(search: Search, node: Node, rows: int | None = None, part: float = AS_MUCH) -> float:
+    """Return the evidence to first order, on so many rows or all, below which nothing explains as much as a set does.
 
     A part of what the set explains, counted as screening does: the rest is what values cost.
     """
+    rows = len(search.engine.readings) if rows is None else rows
     explained: float = (search.root.trial.left - node.trial.left) / search.screen(search.root).temper
     return part * 0.5 * rows * explained
 

@@ -312,8 +312,10 @@ def test_a_set_with_one_too_many_is_known_by_what_it_needs(monkeypatch: pytest.M
     left = {(DRIFT, GAIN, SCREW): 1.0, (DRIFT, GAIN): 1.01, (DRIFT, SCREW): 5.0, (GAIN, SCREW): 6.0}
     search, node = searched(left | {(DRIFT,): 7.0, (GAIN,): 7.0, (SCREW,): 10.0})
     search.nodes.clear()
-    screened = SimpleNamespace(members=[SimpleNamespace(known=each.hypothesis) for each in node.members], effects=[])
+    members = [SimpleNamespace(known=each.hypothesis) for each in node.members]
+    screened = SimpleNamespace(members=members, effects=[], log_evidence=1.0)
     monkeypatch.setattr(known_together, "known_sets", lambda search, most: [screened])
+    monkeypatch.setattr(known_together, "as_much_as", lambda search, node, part: 0.0)
     best = node_of(search.trials.of((DRIFT,)))
     for each in (node, best):
         each.trial.refused = ()
