@@ -29,7 +29,7 @@ TUNED = 2
 AS_MUCH = 0.9
 """Part of what a set's explained squares are worth as evidence that what is fitted in its place must have to first
 order. Pairs and sixes of elements that replaced a set, or came near to it, had 0.98 to 1.12 of it; those that had less
-than 0.9 left twice to sixty times as much."""
+than 0.9 left 1.6 to thirty times as much."""
 
 Screened = Callable[["Search", Trial, Screen], list[Scored]]
 

@@ -92,6 +92,7 @@ class Search:
         """Sets of known effects beside nothing, by how many there are at most."""
         self._by_formulas: dict[int, float] = {}
         self._sure_together: Node | None = None
+        """Known effects beside nothing that are what they are by formulas, once these were looked for."""
 
     @cached_property
     def kin(self) -> dict[str, set[str]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from types import SimpleNamespace
-from typing import NoReturn
+from typing import Any, NoReturn
 
 import pytest
 from tests.foreign_records import samples_of
@@ -75,9 +75,9 @@ def test_what_errs_no_more_than_its_fit_expects_along_one_axis_needs_no_other(
 ) -> None:
     held = SimpleNamespace(after=after, expected=expected)
     checked = SimpleNamespace(claimed=("circle",), heldout={"circle": held})
-    search = SimpleNamespace(criteria=DEFAULT, checked=lambda _: checked)
+    search: Any = SimpleNamespace(criteria=DEFAULT, checked=lambda _: checked)
     monkeypatch.setattr(last_resort, "is_complete", lambda *_: True)
-    best = SimpleNamespace(
+    best: Any = SimpleNamespace(
         is_known=False, trial=SimpleNamespace(left=1.02), members=[name], hypotheses=[Learned.parse(name)]
     )
-    assert last_resort.needs_no_other(search, best) is enough  # type: ignore[arg-type]
+    assert last_resort.needs_no_other(search, best) is enough
