@@ -3,7 +3,6 @@
 
 PYTHON ?= python3
 HEXDBB_WERROR ?= OFF
-HEXDBB_LONG ?= OFF
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -80,7 +79,7 @@ test-cpp: build  ## C++ tests
 .PHONY: test-python
 test-python: setup  ## Python tests
 	@echo "==> Python tests"
-	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile -m "$(if $(filter ON,$(HEXDBB_LONG)),,not long)"
+	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile -m "not long"
 
 .PHONY: test-long
 test-long: setup  ## the long tests: whole searches of causes

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from hexdbb.errors import RunError
 from hexdbb.evidence.by_formulas import are_what_they_are, explain_by_own_formulas
+from hexdbb.evidence.expansion import expanded
 from hexdbb.evidence.known_words import in_known_words, known_for
 from hexdbb.evidence.needed import is_better, needs, needs_all
 from hexdbb.evidence.node import Node
@@ -30,7 +31,7 @@ def settled(search: Search, node: Node) -> Node:
         learns = search.learns and not _is_known_for_sure(search, node)
         for member in node.members:
             others = node.without(member)
-            _expand_better_formulas(search, node, search.expand(search.node(others, near=node), learns), learns)
+            _expand_better_formulas(search, node, expanded(search, search.node(others, near=node), learns), learns)
         better = sorted(
             (each for each in search.nodes if is_better(search, each, node) and _may_replace(search, each, node)),
             key=lambda each: -each.score,
@@ -69,7 +70,7 @@ def _expand_better_formulas(search: Search, node: Node, instead: Sequence[Node],
     known = [each for each in instead if each.is_known and not each.trial.refused]
     best = min(known, key=lambda each: search.left_by_formulas(each.trial), default=node)
     if search.left_by_formulas(best.trial) < search.left_by_formulas(node.trial):
-        search.expand(best, learns)
+        expanded(search, best, learns)
 
 
 def _gives_up(search: Search, node: Node, other: Node) -> bool:

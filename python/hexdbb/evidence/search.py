@@ -7,7 +7,7 @@ so that two faults of one size, of which either alone explains half, are found t
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 
@@ -16,33 +16,32 @@ from numpy.typing import NDArray
 
 from hexdbb.errors import RunError
 from hexdbb.evidence.admissible import Checked, check
+from hexdbb.evidence.beam import followed, needed
 from hexdbb.evidence.beside import with_known_beside
-from hexdbb.evidence.by_formulas import are_what_they_are
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine
+from hexdbb.evidence.expansion import expanded
 from hexdbb.evidence.fine_enough import or_one_fine_enough
 from hexdbb.evidence.form import Form
 from hexdbb.evidence.formula import left_by_formulas
 from hexdbb.evidence.heldout import first_error
 from hexdbb.evidence.homes import Homes
 from hexdbb.evidence.known_together import or_known_together
-from hexdbb.evidence.last_resort import LAST_RESORTS, state_of, tried_last
+from hexdbb.evidence.last_resort import LAST_RESORTS, tried_last
 from hexdbb.evidence.learnable import Learnable
-from hexdbb.evidence.needed import best_of, needs
+from hexdbb.evidence.needed import best_of
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.number import with_best_number
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
-from hexdbb.evidence.screened import in_other_words, screened, screened_further
-from hexdbb.evidence.settling import is_complete, is_doubtful, predicts, rests_on_form, settles
+from hexdbb.evidence.settling import is_complete, is_doubtful, predicts, rests_on_form
 from hexdbb.evidence.several import as_one_cause, is_at_most, is_of_several, or_at_several
-from hexdbb.evidence.shortlist import shortlist
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.thinned import Thinned
 from hexdbb.evidence.together import Together
 from hexdbb.evidence.trial import Member, Trial
 from hexdbb.evidence.trials import Trials
 from hexdbb.learned import ALL, Learned, settling
-from hexdbb.learned.places import EACH, INSTRUMENT
+from hexdbb.learned.places import EACH
 
 Floats = NDArray[np.float64]
 
@@ -83,7 +82,8 @@ class Search:
         self.trials = Trials(self.engine, self.homes, self.criteria)
         self.root = Node(self.trials.of(()), self.trials.of(()).log_evidence)
         self.nodes.append(self.root)
-        self._expanded: dict[tuple[frozenset[str], bool], list[Node]] = {}
+        self.expanded: dict[tuple[frozenset[str], bool], list[Node]] = {}
+        """Sets with one hypothesis more, by the names of those expanded and whether functions were learned."""
         self._checked: dict[int, Checked] = {}
         self._first_errors: dict[int, float] = {}
         self.screened_known: dict[int, list[Scored]] = {}
@@ -91,7 +91,7 @@ class Search:
         self.known_sets: dict[int, list[Together]] = {}
         """Sets of known effects beside nothing, by how many there are at most."""
         self._by_formulas: dict[int, float] = {}
-        self._sure_together: Node | None = None
+        self.sure_together: Node | None = None
         """Known effects beside nothing that are what they are by formulas, once these were looked for."""
 
     @cached_property
@@ -133,12 +133,12 @@ class Search:
         best, beam = self.root, [self.root]
         together, learns = self.root, self.learns
         for size in range(self.criteria.max_effects):
-            starts = beam[: self.criteria.max_expansions - len(self._expanded)]
-            children = self._needed(child for node in starts for child in self.expand(node, learns))
-            beam = self._kept(children)
+            starts = beam[: self.criteria.max_expansions - len(self.expanded)]
+            children = needed(self, (child for node in starts for child in expanded(self, node, learns)))
+            beam = followed(self, children)
             best = best_of(self, best, (each for each in beam if predicts(self, each)))
-            if size == 0 and self._sure_together is not None:
-                together = best = self._sure_together
+            if size == 0 and self.sure_together is not None:
+                together = best = self.sure_together
             elif size == 0 and self.learns and not (best.members and best.is_known):
                 best = or_one_fine_enough(self, best)
             if size == 0 and best is not together and self._asks_for_sets(best):
@@ -148,9 +148,10 @@ class Search:
             for screened_last, is_enough in LAST_RESORTS if learns else ():
                 if is_enough(self, best):
                     continue
-                found = self._needed(child for node in starts for child in tried_last(self, node, screened_last, best))
+                last = (child for node in starts for child in tried_last(self, node, screened_last, best))
+                found = needed(self, last)
                 children = [*children, *found]
-                beam = self._kept(children)
+                beam = followed(self, children)
                 best = best_of(self, best, (each for each in found if predicts(self, each)))
                 if size == 0 and found and not best.is_known:
                     best = or_one_fine_enough(self, best)
@@ -168,30 +169,6 @@ class Search:
         """Check that what explains most alone leaves something, or is only excused, or explains much by its form."""
         is_more = best.trial.left > self.criteria.refined_to or self.checked(best).excused
         return is_more or rests_on_form(self, best.trial)
-
-    def expand(self, node: Node, learns: bool | None = None) -> list[Node]:
-        """Rank what may be missing beside a set: screened, then fitted in full; the best first.
-
-        Parameters
-        ----------
-        node : Node
-        learns : bool, optional
-            Whether learned functions are looked at; as the search does where not given.
-        """
-        learns = self.learns if learns is None else learns
-        key = frozenset(node.trial.names), learns
-        if key not in self._expanded:
-            if len(self._expanded) >= self.criteria.most_expansions:
-                return []
-            screen = self.screen(node)
-            found = self._children(node, screen, learns)
-            self.nodes += found
-            if learns and not any(settles(self, each) for each in found) and not self._are_known(node, found):
-                further = self._further(node, screen)
-                self.nodes += further
-                found += further
-            self._expanded[key] = sorted(found, key=lambda each: -each.score)
-        return self._expanded[key]
 
     def node(self, members: Sequence[Member], near: Node) -> Node:
         """Return the node of a set, its score told from that of a near one where it was not reached by a step."""
@@ -253,49 +230,15 @@ class Search:
             return any(each.is_but_finer(learned) or each.is_at_the_rail_of(learned) for each in homes)
         return any(each.is_of_time and (each.place, each.element) == (learned.place, learned.element) for each in homes)
 
-    def _children(self, node: Node, screen: Screen, learns: bool) -> list[Node]:
-        known, learned = screened(self, node.trial, screen, learns=learns)
-        count, most = self._fits_of(node), self.criteria.most_of_one_effect
-        chosen = [*shortlist(known, count, most), *shortlist(learned, count, most)]
-        found = self.tried(node, [*chosen, *in_other_words(self, known, learned, chosen)])
-        if learns and node is self.root and not any(settles(self, each) for each in found):
-            found += self.tried(node, [each for each in known if self._is_of_all(each) and each not in chosen])
-        return found
-
-    def _further(self, node: Node, screen: Screen) -> list[Node]:
-        further = screened_further(self, node.trial, screen)
-        return self.tried(node, shortlist(further, self._fits_of(node), self.criteria.most_of_one_effect))
-
-    def _fits_of(self, node: Node) -> int:
-        return self.criteria.full_fits if node is self.root else self.criteria.later_fits
-
-    def _are_known(self, node: Node, alone: Sequence[Node]) -> bool:
-        """Check for known effects, chosen together, that are what they are by formulas: they are looked at first.
-
-        They must have more evidence than whatever was tried alone. Finer functions, and those of more states, are then
-        only more values that say the same.
-        """
-        if node is self.root and alone:
-            found = or_known_together(self, max(alone, key=lambda each: each.score))
-            self._sure_together = found if are_what_they_are(self, found) else None
-        return node is self.root and self._sure_together is not None
-
-    def _is_of_all(self, scored: Scored) -> bool:
-        """Check for an effect that all legs or sliders share, at the machine's end of the measuring loop.
-
-        Geometry takes what they do alike, and what is seen is how they differ, its form, by which it is not screened:
-        legs that grow unequally were a guideway that grows.
-        """
-        known = scored.hypothesis
-        return isinstance(known, Known) and known.is_whole and not self.engine.absent.ports(known.effect) <= INSTRUMENT
-
-    def _needed(self, children: Iterable[Node]) -> list[Node]:
-        """Return those whose last member is needed and refused by nothing, the best first."""
-        found = (each for each in children if not each.trial.refused and needs(self, each, each.members[-1]))
-        return sorted(found, key=lambda each: -each.score)
-
     def screen(self, node: Node) -> Screen:
-        """Return what scores hypotheses beside those of a set."""
+        """Return what scores hypotheses beside those of a set; beside nothing, one that keeps what it has scored."""
+        return self._beside_nothing if node is self.root else self._screen(node)
+
+    @cached_property
+    def _beside_nothing(self) -> Screen:
+        return self._screen(self.root)
+
+    def _screen(self, node: Node) -> Screen:
         sums = Sums(self.trials.linear(node.trial), self.engine.readings, ("circle",))
         return Screen(sums, self.criteria, self.thinned)
 
@@ -332,30 +275,6 @@ class Search:
             if same.name in names:
                 names.add(hypothesis.name)
 
-    def _kept(self, children: Sequence[Node]) -> list[Node]:
-        """Choose the best sets that predict, of different kinds, and the best of known effects only, the best first.
-
-        Beside the known one another fault shows as it is, beside what imitates both it does not: it is second at least
-        where its own formula explains most of what it does.
-        """
-        kept: list[Node] = []
-        children = sorted(children, key=lambda each: -each.score)
-        for child in children:
-            alike = any(_alike(self, child, other) for other in kept)
-            if len(kept) < self.criteria.beam and not alike and predicts(self, child):
-                kept.append(child)
-        # Of two faults neither predicts alone, and one of another form may not either: the best is looked at further.
-        best = next((each for each in children if each.is_known), None)
-        if best is not None and not any(best is each for each in kept):
-            kept.insert(1 if self._is_by_formula(best) else len(kept), best)
-        return kept
-
-    def _is_by_formula(self, node: Node) -> bool:
-        """Check that formulas explain most of what a set of known effects does."""
-        left = self.root.trial.left
-        by_formulas = left - self.left_by_formulas(node.trial)
-        return by_formulas >= self.criteria.own_formula * (left - node.trial.left)
-
     def is_whole(self, effect: str) -> bool:
         """Check whether an effect has one element only, so that its name needs none."""
         return len(self.engine.base.info(effect).elements) == 1
@@ -377,15 +296,3 @@ class Search:
 def _home(name: str) -> Learned:
     """Return a home by its name: sets are compared thousands of times, by the same few."""
     return Learned.parse(name)
-
-
-def _alike(search: Search, one: Node, other: Node) -> bool:
-    """Check whether every hypothesis of one set has one of its kind in another, or the same state at another place."""
-    return all(
-        any(search.same_kind(first, second) or _is_same_state(first, second) for second in other.hypotheses)
-        for first in one.hypotheses
-    )
-
-
-def _is_same_state(one: Hypothesis, other: Hypothesis) -> bool:
-    return isinstance(one, Learned) and isinstance(other, Learned) and state_of(one) == state_of(other)

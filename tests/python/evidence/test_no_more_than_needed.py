@@ -9,7 +9,7 @@ import pytest
 from tests.foreign_records import samples_of
 
 from hexdbb.diagnosis import noise_of
-from hexdbb.evidence import known_together, last_resort, two_elements
+from hexdbb.evidence import expansion, known_together, last_resort, two_elements
 from hexdbb.evidence import search as search_module
 from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.evidence.engine import Engine
@@ -38,8 +38,8 @@ def not_asked(*_: object) -> NoReturn:
 
 
 def test_known_effects_that_are_what_they_are_ask_for_no_finer_functions(monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in ("screened_further", "or_one_fine_enough"):
-        monkeypatch.setattr(search_module, name, not_asked)
+    monkeypatch.setattr(expansion, "screened_further", not_asked)
+    monkeypatch.setattr(search_module, "or_one_fine_enough", not_asked)
     found = search_in("drift-and-spike").run()
     assert {each.name for each in found.hypotheses} == {"bar_drift", "reversal_spike:6"}
 
