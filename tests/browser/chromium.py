@@ -20,6 +20,8 @@ RULES = {"runOnly": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "best-practice"
 """What axe-core checks: contrast, labels, roles, keyboard."""
 TIMEOUT_MS = 60_000
 """Limits the wait for what a page shows in the end, on a machine that does much else."""
+START_MS = 180_000
+"""Limits the wait for the browser: on a machine that does much else its first start, from disk, took over 30 s."""
 
 
 def executable() -> str | None:
@@ -40,7 +42,7 @@ def browser() -> Iterator[Browser]:
         pytest.skip(f"none of {', '.join(EXECUTABLES)} is installed")
     expect.set_options(timeout=TIMEOUT_MS)
     with sync_playwright() as driver:
-        started = driver.chromium.launch(executable_path=found, args=arguments())
+        started = driver.chromium.launch(executable_path=found, args=arguments(), timeout=START_MS)
         yield started
         started.close()
 

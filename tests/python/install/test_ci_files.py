@@ -17,7 +17,7 @@ WORKFLOWS = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
 TARGETS = set(re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), flags=re.MULTILINE))
 ALLOWED = (
     r"apt-get update && apt-get install --yes --no-install-recommends [a-z0-9 -]+",
-    r"\.ci/run (?P<step>[a-z]+)",
+    r"\.ci/run (?P<step>[a-z-]+)",
     r"make (?P<target>[a-z]+)",
     r"pipx run \"cibuildwheel==[0-9.*]+\" --output-dir dist",
 )

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from datetime import date
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, Error, sync_playwright
 
 from hexdbb.ledger import add_effect, fit_model
 from hexdbb.machine import Tolerance
@@ -23,7 +21,6 @@ from hexdbb_truth.plans import discovery_plan
 from hexdbb_truth.simulate import Pace, simulate
 
 HOSTILE = '<img src=x onerror="document.title=1">&\'"</script>'
-CHROMIUM = Path("/usr/bin/chromium")
 
 
 @pytest.fixture(scope="session")
@@ -60,16 +57,3 @@ def page_file(report: Report, tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("report") / "report.html"
     write_page(report, path)
     return path
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    if not CHROMIUM.exists():
-        pytest.skip(f"no {CHROMIUM} (expected Debian's package chromium)")
-    with sync_playwright() as driver:
-        try:
-            started = driver.chromium.launch(executable_path=str(CHROMIUM), args=["--no-sandbox"])
-        except Error as error:
-            pytest.skip(f"{CHROMIUM} does not start: {str(error).splitlines()[0]}")
-        yield started
-        started.close()

@@ -9,12 +9,15 @@ from pathlib import Path
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, Page
+from tests.browser.chromium import browser
 from tests.python.reporting.conftest import HOSTILE
 
 from hexdbb.model import Model
 from hexdbb.record import Record
 from hexdbb.reporting import make_report, write_page
 from hexdbb.samples import Samples
+
+__all__ = ["browser"]  # a fixture
 
 WIDTHS = (1440, 390)
 
