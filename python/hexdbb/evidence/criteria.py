@@ -252,6 +252,12 @@ class Criteria:
     form_named : float
         The same from which what explains nearly as much (`same_kind_share`) is named beside the effect: forms 20 % off,
         the largest that the calibration has, measure up to 0.19, 0.42 where geometry takes most of the effect itself.
+    form_as_seen : float
+        The same where geometry leaves more than `form_seen` of the effect's mean square: 104 faults of forms 20 % off
+        measure up to 0.222 then, a gauge that saturates 0.238, a drive that lags above a speed only 0.289.
+    form_seen : float
+        Part of an effect's mean square above which its form is measured well. Of leads, bows and joints off their
+        places geometry leaves less than 0.02, of play, lags and gauges 0.06 and more, at 100 times the noise too.
     form_exact : float
         The same up to which an effect is its formula as it is: what leaves only noise so, or the square of
         `form_described` of what it explains, is named for sure though it errs on circles left out by more than
@@ -363,6 +369,8 @@ class Criteria:
     explained_min: float = 0.75
     form_limit: float = 0.42
     form_named: float = 0.3
+    form_as_seen: float = 0.235
+    form_seen: float = 0.05
     form_exact: float = 0.1
     same_kind_share: float = 0.05
     secondary: float = 2.0

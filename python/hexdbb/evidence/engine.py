@@ -288,6 +288,12 @@ class Engine:
         named = zip(model.parameters(), model.free, strict=True)
         return np.array([each.effect in before for each, is_free in named if is_free], dtype=bool)
 
+    def values_of(self, model: Model, effect: str, elements: Sequence[str]) -> NDArray[np.bool_]:
+        """Return which free values of a model are those of an effect at some elements."""
+        named = zip(model.parameters(), model.free, strict=True)
+        of = [each.effect == effect and each.element in elements for each, is_free in named if is_free]
+        return np.array(of, dtype=bool)
+
     def _mine(self) -> set[str]:
         return {*_core.effect_names("catalogue"), *self.base.own_effects}
 

@@ -145,7 +145,7 @@ def of_better_form(search: Search, node: Node) -> Node:
     """Exchange an effect of quite another form for a known one whose own form fits, at the same place."""
     for place, member in enumerate(node.members):
         form = node.trial.forms[place]
-        if form is None or form.deviation <= search.criteria.form_named:
+        if form is None or not form.is_odd:
             continue
         others = node.without(member)
         for known in known_for(search, list(form.functions)):

@@ -30,7 +30,8 @@ Floats = NDArray[np.float64]
 class Form:
     """How far an effect's form differs from the machine's: the relative size of the functions beside it.
 
-    `columns` is how many directions of them stand in the linearisation, from column `first` on.
+    `columns` is how many directions of them stand in the linearisation, from column `first` on. `is_seen` where
+    geometry leaves enough of the effect to measure its form, `is_odd` where that is quite another one.
     """
 
     fraction: float
@@ -38,6 +39,8 @@ class Form:
     functions: tuple[str, ...]
     columns: int = 0
     first: int = 0
+    is_seen: bool = False
+    is_odd: bool = False
     coefficients: tuple[tuple[Learned, Floats], ...] = field(default=(), repr=False, compare=False)
     """The functions, and their coefficients for one prior standard deviation along each direction (a column each)."""
 
@@ -71,9 +74,17 @@ class Forms:
         if deviation > self.criteria.form_limit and not self._are_sizes(linear, known):
             # At hundreds of times the noise no prior holds a discrepancy back: what differs so much is another cause.
             return linear, Form(0.0, 0.0, ())
-        coefficients = best.coefficients
-        form = Form(fraction, deviation, functions, best.factor.shape[1], linear.own.shape[1], coefficients)
+        columns, first = best.factor.shape[1], linear.own.shape[1]
+        is_seen = self._is_seen(fitted, known)
+        is_odd = deviation > (self.criteria.form_as_seen if is_seen else self.criteria.form_named)
+        form = Form(fraction, deviation, functions, columns, first, is_seen, is_odd, best.coefficients)
         return self.with_columns(linear, form), form
+
+    def _is_seen(self, fitted: Fitted, known: Known) -> bool:
+        """Check that geometry does not take nearly all of an effect: its form can then be measured."""
+        own = self.engine.values_of(fitted.model, known.effect, known.elements)
+        whole, left = fitted.linear.beyond(own, self.engine.geometry(fitted))
+        return left >= self.criteria.form_seen * whole
 
     def _are_sizes(self, linear: Linear, known: Known) -> bool:
         """Check for an effect at several elements whose formula explains nearly all.

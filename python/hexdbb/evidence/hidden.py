@@ -28,7 +28,7 @@ def _with_another_there(search: Search, node: Node, member: Member) -> Node:
     """Add the known effect that explains most beside one of quite another form; both are then of their own."""
     criteria = search.criteria
     form = node.trial.forms[node.members.index(member)]
-    if form is None or form.deviation <= criteria.form_named or len(node.members) >= criteria.max_effects:
+    if form is None or not form.is_odd or len(node.members) >= criteria.max_effects:
         return node
     found = []
     for known in known_for(search, list(form.functions)):
@@ -39,7 +39,7 @@ def _with_another_there(search: Search, node: Node, member: Member) -> Node:
         except RunError:
             continue
         forms = (trial.forms[node.members.index(member)], trial.forms[-1])
-        are_own = all(each is not None and each.deviation <= criteria.form_named for each in forms)
+        are_own = all(each is not None and not each.is_odd for each in forms)
         other = Node(trial, node.score + trial.log_evidence - node.trial.log_evidence)
         if are_own and not trial.refused and is_better(search, other, node):
             found.append(other)

@@ -103,7 +103,7 @@ def _says_as_much(search: Search, node: Node, than: Node, learned: Learned) -> b
     if _leaves_more(search, node, than, learned):
         return False
     if than.trial.is_of_time:
-        return all(form is None or form.deviation <= search.criteria.form_named for form in node.trial.forms)
+        return all(form is None or not form.is_odd for form in node.trial.forms)
     one, other = search.checked(node), search.checked(than)
     return not one.reasons and one.excused <= other.excused
 
@@ -111,12 +111,16 @@ def _says_as_much(search: Search, node: Node, than: Node, learned: Learned) -> b
 def _is_by_form(search: Search, node: Node, learned: Learned) -> bool:
     """Check for one known effect of another form, or elsewhere than a function, whose formula explains hardly anything.
 
-    Of a lead of the function's own slider geometry may take all but the form, and it is a lead nevertheless.
+    Of a lead of the function's own slider geometry may take all but the form, and it is a lead nevertheless. Where
+    geometry leaves enough to tell, what is of another form is no such effect, however much the formula explains: a
+    drive that falls behind above a speed only.
     """
     known, *others = node.hypotheses
     if others or not isinstance(known, Known) or (form := node.trial.forms[0]) is None:
         return False
-    is_other = form.deviation > search.criteria.form_named or not acts_there(search, known, learned)
+    if form.is_odd and form.is_seen:
+        return True
+    is_other = form.is_odd or not acts_there(search, known, learned)
     return is_other and explained_by_formulas(search, node) < search.criteria.formula_names
 
 

@@ -45,7 +45,7 @@ def _is_mostly_its_formula(search: Search, known: Node, node: Node, learned: Lea
     return (
         not known.trial.refused
         and form is not None
-        and form.deviation <= search.criteria.form_named
+        and not form.is_odd
         and acts_there(search, effect, learned)
         and explained_by_formulas(search, known) >= search.criteria.formula_most
         and explains_nearly(search, known.trial.left, node.trial.left)

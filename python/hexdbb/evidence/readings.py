@@ -291,6 +291,20 @@ class Linear:
         vars(found)["normal"] = normal
         return found
 
+    def beyond(self, own: NDArray[np.bool_], others: NDArray[np.bool_]) -> tuple[float, float]:
+        """Return the mean square of what some values push, and of that which others, with their priors, do not imitate.
+
+        Parameters
+        ----------
+        own, others : ndarray of bool, shape (p,)
+        """
+        values, normal = self.standing[own], self.normal[:-1, :-1]
+        among, both = normal[np.ix_(others, others)], normal[np.ix_(others, own)] @ values
+        imitated = np.linalg.solve(among + np.eye(len(among)), both)
+        whole = float(values @ normal[np.ix_(own, own)] @ values)
+        left = whole - float(2.0 * both @ imitated - imitated @ among @ imitated)
+        return whole / len(self.residual), max(left, 0.0) / len(self.residual)
+
     @property
     def log_evidence(self) -> float:
         """Log marginal likelihood of the fitted model (Laplace; MacKay 1992), but for a constant of the readings."""

@@ -61,7 +61,7 @@ def rivals_of(search: Search, node: Node, cause: Hypothesis) -> Rivals:
         if not is_known_too:
             margin = min(margin, lead)
     form = node.trial.forms[node.hypotheses.index(cause)]
-    if form is not None and form.deviation > search.criteria.form_named:
+    if form is not None and form.is_odd:
         others += _nearly_as_good(search, node, cause, form)
     if isinstance(cause, Known) and len(node.members) == 1:
         others += _errs_no_more(search, node, cause)

@@ -110,8 +110,7 @@ def _is_put_together(search: Search, node: Node) -> bool:
 
     So it fits, whatever is true; unless each explains by its own formula what it does.
     """
-    deviation = max((form.deviation for form in node.trial.forms if form is not None), default=0.0)
-    is_odd = search.checked(node).excused or deviation > search.criteria.form_named
+    is_odd = search.checked(node).excused or any(form is not None and form.is_odd for form in node.trial.forms)
     return len(node.members) > 1 and is_odd
 
 

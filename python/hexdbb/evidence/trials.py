@@ -179,7 +179,7 @@ class Trials:
         linear, own = self.linear(root), self._columns_of_present(root)
         for _, columns in root.columns_of_forms():
             own[columns] = True
-        return _beyond(linear.own, linear.standing, own, ~own)
+        return linear.beyond(own, ~own)[1]
 
     def pushed(self, trial: Trial) -> Floats:
         """Return what the effects that the model had before push on each row, in noise standard deviations."""
@@ -201,12 +201,10 @@ class Trials:
         What it explains alone; that other effects may stand in for it makes it no smaller.
         """
         linear, model = self.linear(trial), trial.model
-        free = [each for each, is_free in zip(model.parameters(), model.free, strict=True) if is_free]
-        own = np.zeros(linear.own.shape[1], bool)
-        own[: len(free)] = [each.effect == known.effect and each.element in known.elements for each in free]
-        geometry = np.zeros(linear.own.shape[1], bool)
-        geometry[: len(free)] = self.engine.geometry_of(model)
-        return _beyond(linear.own, linear.standing, own, geometry)
+        own, geometry = np.zeros((2, linear.own.shape[1]), bool)
+        own[: int(model.free.sum())] = self.engine.values_of(model, known.effect, known.elements)
+        geometry[: int(model.free.sum())] = self.engine.geometry_of(model)
+        return linear.beyond(own, geometry)[1]
 
     def bent(self, trial: Trial) -> float:
         """Mean square, in noise variances, by which geometry is bent beyond its priors.
@@ -329,15 +327,6 @@ def _free_shapes(model: Model, effects: set[str]) -> NDArray[np.bool_]:
     """Return which values of a model are free shapes of some effects of the engine's, shape (size,)."""
     of = [each.is_shape and each.shape is None and each.effect in effects for each in model.parameters()]
     return np.array(of, bool) & model.free
-
-
-def _beyond(columns: Floats, values: Floats, own: NDArray[np.bool_], others: NDArray[np.bool_]) -> float:
-    """Return the mean square of what some values push that others, with their priors, do not imitate."""
-    if not own.any():
-        return 0.0
-    part, rest = columns[:, own] @ values[own], columns[:, others]
-    imitated = rest @ np.linalg.solve(rest.T @ rest + np.eye(rest.shape[1]), rest.T @ part)
-    return float(np.mean((part - imitated) ** 2))
 
 
 def _key(members: Sequence[Member]) -> frozenset[str]:
