@@ -17,9 +17,12 @@ then move it. Shorter ones follow at once at usual feeds, longer ones are functi
 SLIPS = {
     **dict.fromkeys(("leg_force", "drive_load", "carriage_load"), (0.02, 0.06)),
     "joint_angle": (0.03, 0.12),
+    "platform_joint_angle": (0.03, 0.12),
+    "swing_angle": (0.02, 0.06),
+    "inclination": (0.01, 0.03),
 }
 """How far a contact yields before it slips, at first, by the variable that strains it: loads per vertical load change
-by 0.1 to 0.2 in a circle, joints turn by 0.3 to 0.6 rad. The readings then move it."""
+by 0.1 to 0.2 in a circle, joints turn by 0.3 to 0.6 rad, legs incline by 0.1 to 0.2. The readings then move it."""
 LONG_S = (6.0, 20.0)
 """The same where circles are run up to from afar: what is shorter forgets the run-up, longer is seen in the mean."""
 FACTORS = {
@@ -100,8 +103,13 @@ def remembered(*variables: Variable) -> Iterator[Variable]:
         for how in (LAGGED, RELAXING):
             yield from (following(each, how, constant_s) for constant_s in CONSTANTS_S)
             yield from (following(each, f"{how}{FAR}", constant_s) for constant_s in LONG_S)
-        for how in (SLIPPING, f"{SLIPPING}{FAR}"):
-            yield from (following(each, how, most) for most in SLIPS.get(each.name, ()))
+        yield from slipping(each)
+
+
+def slipping(variable: Variable) -> Iterator[Variable]:
+    """Yield what a variable becomes that strains a contact until it slips, with run-ups of either length."""
+    for how in (SLIPPING, f"{SLIPPING}{FAR}"):
+        yield from (following(variable, how, most) for most in SLIPS.get(variable.name, ()))
 
 
 def of_drives(variables: Iterable[Variable]) -> Iterator[Variable]:
