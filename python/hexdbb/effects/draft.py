@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from hexdbb.errors import InputError
 from hexdbb.learned import Curve, Form, Space, describe
+from hexdbb.learned.forms import Fit
 from hexdbb.learned.shown import place_words
 from hexdbb.learned.variable import BENT, ELAPSED, is_growing
 from hexdbb.machine import MachineFile
@@ -141,7 +142,7 @@ def _function(space: Space, curve: Curve, form: Form) -> tuple[float, list[str],
     if fit is None or fit.kind == "step":
         return _table(curve)
     # The constant beside a form belongs to it: as a part of its height, or the push would not be the learned one.
-    height = float(np.hypot(*fit.coefficients)) if fit.kind == "sine" else float(fit.coefficients[0])
+    height = _height(fit)
     base = _number(fit.constant / height)
     unit = space.hypothesis.variable.unit or "1"
     if fit.kind == "linear":
@@ -154,12 +155,33 @@ def _function(space: Space, curve: Curve, form: Form) -> tuple[float, list[str],
             f'"phase": Shape({_number(phase)}, prior_sigma=1.0, unit="rad")',
         ]
         return height, shapes, _body(f"{base} + np.sin(2.0 * np.pi * x / period + phase)")
+    if fit.kind == "band":
+        return height, *_level(fit, base, height, unit)
     centre, width = map(float, fit.shapes)
     shapes = [
         f'"centre": Shape({_number(centre)}, prior_sigma={_number(width)}, unit="{unit}")',
         f'"width": Shape({_number(width)}, prior_sigma={_number(SHAPE_PART * width)}, lower=0.0, unit="{unit}")',
     ]
     return height, shapes, _body(f"{base} + np.exp(-4.0 * np.log(2.0) * ((x - centre) / width) ** 2)")
+
+
+def _height(fit: Fit) -> float:
+    """Return the size of a form in mm, that of the steeper side where it is level between two."""
+    if fit.kind == "sine":
+        return float(np.hypot(*fit.coefficients))
+    return float(fit.coefficients[np.argmax(np.abs(fit.coefficients))])
+
+
+def _level(fit: Fit, base: str, height: float, unit: str) -> tuple[list[str], list[str]]:
+    """Return the shapes and the lines of a function that is level between two ends, and linear beyond either."""
+    low, width = map(float, fit.shapes)
+    below, above = (_number(each / height) for each in fit.coefficients)
+    sigma = _number(SHAPE_PART * max(width, abs(low)))
+    shapes = [
+        f'"low": Shape({_number(low)}, prior_sigma={sigma}, unit="{unit}")',
+        f'"width": Shape({_number(width)}, prior_sigma={sigma}, lower=0.0, unit="{unit}")',
+    ]
+    return shapes, _body(f"{base} + {below} * np.minimum(x - low, 0.0) + {above} * np.maximum(x - low - width, 0.0)")
 
 
 def _table(curve: Curve) -> tuple[float, list[str], list[str]]:

@@ -1,14 +1,15 @@
 """Forms that a function may have: each is fitted by weighted least squares, and explains a part of its variation.
 
 y = constant + linear combination of a few functions of x, of which some have shapes (centre and width of a bump,
-period of a sine) that are searched on a grid and refined (variable projection; Golub and Pereyra 1973).
+period of a sine, begin and width of a level band) that are searched on a grid and refined (variable projection; Golub
+and Pereyra 1973).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from itertools import product
+from itertools import combinations_with_replacement, product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +28,8 @@ SHORTEST = 1.0 / 12.0
 GRID = 24
 """Starts of a shape: neighbours overlap for the narrowest width that is looked for."""
 
+BANDS = 13
+"""Ends of a level band that are tried first: twelfths of the range."""
 FINEST = 1e-6
 """Last step of the search for a shape, over its range: words and drafts state four digits."""
 
@@ -66,7 +69,12 @@ def _sine(x: Floats, shapes: Floats) -> Floats:
     return np.column_stack([np.sin(turn), np.cos(turn)])
 
 
-BASES: dict[str, Basis] = {"linear": _linear, "step": _step, "sine": _sine, "bump": _bump}
+def _band(x: Floats, shapes: Floats) -> Floats:
+    low, width = shapes
+    return np.column_stack([np.minimum(x - low, 0.0), np.maximum(x - low - width, 0.0)])
+
+
+BASES: dict[str, Basis] = {"linear": _linear, "step": _step, "sine": _sine, "bump": _bump, "band": _band}
 """The functions of every form, the simplest form first."""
 
 
@@ -93,6 +101,10 @@ def fits(x: Floats, y: Floats, weights: Floats, period: float = 0.0) -> Iterator
     widths = np.geomspace(2.0 * spacing, WIDEST * (high - low), 8)
     grid = np.array([(centre, width) for centre in np.linspace(low, high, GRID) for width in widths])
     yield _searched("bump", x, y, weights, grid, [(low, high), (2.0 * spacing, WIDEST * (high - low))])
+    if not period:
+        ends = np.linspace(low, high, BANDS)
+        bands = np.array([(one, other - one) for one, other in combinations_with_replacement(ends, 2)])
+        yield _searched("band", x, y, weights, bands, [(low, high), (0.0, high - low)])
 
 
 def _searched(kind: str, x: Floats, y: Floats, weights: Floats, grid: Floats, bounds: list[tuple[float, float]]) -> Fit:

@@ -6,6 +6,8 @@ predicts what was left out.
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from tests.foreign_records import found_in
 
@@ -120,6 +122,12 @@ moves the best direction by two degrees, a fifteenth of what lies between two th
         ("clamp-leaks", "learned:slider_joint:2:time_period@", {"circle", "feed", "direction", "lap"}),
         # Fourteen lobes of a joint's ball: a joint off its place, for sure, whose form described most of them.
         ("joint-flats", "learned:leg:2:platform_joint_angle", {"circle", "feed", "direction", "lap"}),
+        # A joint that sticks, then slides as the leg inclines: a force that grows with time said four fifths of it.
+        ("joint-sticks", "learned:leg:1:inclination_slipping@", {"circle", "feed", "direction", "lap"}),
+        # A drive that falls behind above 12 mm/s only: a lag for sure, whose formula said nearly nine tenths of it.
+        ("lags-above-a-speed", "learned:slider:2:velocity", {"circle", "feed", "direction", "lap"}),
+        # A gauge that reads short away from its middle, with a flaw at one place: a wrong gain for sure.
+        ("gauge-saturates", "learned:reading:deflection", {"circle", "feed", "direction", "lap"}),
     ],
 )
 def test_the_place_and_the_variable_are_found_where_no_known_effect_is(
@@ -135,6 +143,14 @@ def test_the_place_and_the_variable_are_found_where_no_known_effect_is(
         true_deg, near_deg = DIRECTION_DEG[name]
         assert float(only.choice.split("@")[1].partition("_")[0]) == pytest.approx(true_deg, abs=near_deg)
     assert all(found.heldout[each].after_um < 0.4 * found.heldout[each].before_um for each in claimed)
+
+
+def test_what_a_drive_does_is_said_as_a_fitter_says_it() -> None:
+    """Level up to a speed, and beyond it not alike in both directions: so it was made."""
+    (only,) = found_in("lags-above-a-speed").causes
+    assert re.search(
+        r"level from -12\.\d mm/s to 12(\.\d)? mm/s; -1\.6\d µm per mm/s below, -2\.8\d µm per mm/s above", only.clause
+    )
 
 
 @pytest.mark.long
