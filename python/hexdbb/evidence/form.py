@@ -31,7 +31,7 @@ class Form:
     """How far an effect's form differs from the machine's: the relative size of the functions beside it.
 
     `columns` is how many directions of them stand in the linearisation, from column `first` on. `is_seen` where
-    geometry leaves enough of the effect to measure its form, `is_odd` where that is quite another one.
+    it stands alone and geometry leaves enough of it to measure its form, `is_odd` where that is quite another one.
     """
 
     fraction: float
@@ -81,9 +81,14 @@ class Forms:
         return self.with_columns(linear, form), form
 
     def _is_seen(self, fitted: Fitted, known: Known) -> bool:
-        """Check that geometry does not take nearly all of an effect: its form can then be measured."""
-        own = self.engine.values_of(fitted.model, known.effect, known.elements)
-        whole, left = fitted.linear.beyond(own, self.engine.geometry(fitted))
+        """Check for an effect beside nothing of which geometry leaves a part: its form can then be measured.
+
+        The functions of its form describe also what it and others leave together: play beside lags of all drives.
+        """
+        own, geometry = self.engine.values_of(fitted.model, known.effect, known.elements), self.engine.geometry(fitted)
+        if not (own | geometry).all():
+            return False
+        whole, left = fitted.linear.beyond(own, geometry)
         return left >= self.criteria.form_seen * whole
 
     def _are_sizes(self, linear: Linear, known: Known) -> bool:

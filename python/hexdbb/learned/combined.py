@@ -17,8 +17,6 @@ then move it. Shorter ones follow at once at usual feeds, longer ones are functi
 SLIPS = {
     **dict.fromkeys(("leg_force", "drive_load", "carriage_load"), (0.02, 0.06)),
     "joint_angle": (0.03, 0.12),
-    "platform_joint_angle": (0.03, 0.12),
-    "swing_angle": (0.02, 0.06),
     "inclination": (0.01, 0.03),
 }
 """How far a contact yields before it slips, at first, by the variable that strains it: loads per vertical load change

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from hexdbb.learned import variables as v
-from hexdbb.learned.combined import FACTORS, each_way, neighbour, of_drives, product
+from hexdbb.learned.combined import FACTORS, each_way, neighbour, of_drives, product, slipping
 from hexdbb.learned.further import BY_TRAVEL, DIRECTIONS_DEG, OF_BALL, OF_WHOLE
 from hexdbb.learned.numbered import POSITION_SPLINES, along
 from hexdbb.learned.places import ALL, PAIRS, SHARED, variables_of
@@ -30,6 +30,8 @@ OF_PATH = (v.ANGLE, v.ANGLE_DIRECTION, v.SPEED, v.FEED, v.CIRCLE_DIRECTION, v.RO
 """States of the platform and of its path."""
 OF_TIME = (v.TIME, v.FINE_TIME, v.TIME_IN_SWEEP, v.IN_CIRCLE, v.SINCE_FIXING, v.WARMING)
 OF_JOINT = (v.TURNING, v.JOINT_ANGLE, v.JOINT_ANGLE_DIRECTION, JOINT_TRAVEL)
+STICKING = tuple(slipping(v.INCLINATION))
+"""A joint that sticks bends its leg until that has inclined by a little, then slides."""
 OF_SWING = (v.SWING, v.SWING_ANGLE, v.INCLINATION, v.PLATFORM_TURNING, v.PLATFORM_ANGLE)
 TRAVEL_EACH_WAY, SINCE_REVERSAL_EACH_WAY = (
     each_way(replace(each, times=""), *BY_TRAVEL) for each in (v.TRAVEL, v.SINCE_REVERSAL)
@@ -87,7 +89,8 @@ OF_SLIDER = tuple(each for each in OF_LEG if each.column != v.JOINT_ANGLE.column
 """Without functions of the joint's angle: its cosine is what a slider moves its leg by, and the leg has them."""
 CROSSED: dict[str, tuple[Variable, ...]] = {
     "slider": _besides("slider", OF_SLIDER),
-    **{place: _besides(place, OF_LEG) for place in ("leg", "lateral", "vertical")},
+    "leg": _besides("leg", (*OF_LEG, *STICKING)),
+    **{place: _besides(place, OF_LEG) for place in ("lateral", "vertical")},
 }
 """Variables by place that neither the simple nor the further ones of that place are."""
 CROSSED |= {

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from hexdbb.learned import variables as v
-from hexdbb.learned.combined import CONSTANTS_S, SPLINES, each_way, neighbour, of_drives, product, remembered, slipping
+from hexdbb.learned.combined import CONSTANTS_S, SPLINES, each_way, neighbour, of_drives, product, remembered
 from hexdbb.learned.numbered import AFTER, LAGGED, SETTLING, SLIPPING, along, following
 from hexdbb.learned.variable import LINGERING, Variable
 
@@ -217,8 +217,6 @@ the nearest explains 93 % at least.
 GROWS = (v.TIME, v.WARMING)
 """Variables of what a whole structure does: it grows."""
 
-STICKING = tuple(each for angle in (v.INCLINATION, v.SWING_ANGLE, v.PLATFORM_ANGLE) for each in slipping(angle))
-"""A joint that sticks bends its leg until it has turned by a little, about whichever of its axes, then slides."""
 OF_RAIL = (v.CARRIAGE_LOAD, v.GAP, *PRODUCTS_OF_GUIDEWAY, v.WARMING, *SETTLING_POSITION, *remembered(v.CARRIAGE_LOAD))
 FURTHER: dict[str, tuple[Variable, ...]] = {
     "slider": (
@@ -242,7 +240,6 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
         *PRODUCTS_OF_LEG,
         *NEIGHBOURS,
         *remembered(v.FORCE, v.JOINT_ANGLE),
-        *STICKING,
         *SETTLING_POSITION,
         *SINCE_START,
         *HEATED,
