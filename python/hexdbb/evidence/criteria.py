@@ -253,8 +253,8 @@ class Criteria:
         The same from which what explains nearly as much (`same_kind_share`) is named beside the effect: forms 20 % off,
         the largest that the calibration has, measure up to 0.19, 0.42 where geometry takes most of the effect itself.
     form_as_seen : float
-        The same where geometry leaves more than `form_seen` of the effect's mean square: 104 faults of forms 20 % off
-        measure up to 0.222 then, a gauge that saturates 0.238, a drive that lags above a speed only 0.289.
+        The same where the effect stands alone and geometry leaves more than `form_seen` of its mean square: 150 faults
+        of forms 20 % off measure up to 0.228 then, a gauge that saturates 0.238, a drive that lags above a speed 0.289.
     form_seen : float
         Part of an effect's mean square above which its form is measured well. Of leads, bows and joints off their
         places geometry leaves less than 0.02, of play, lags and gauges 0.06 and more, at 100 times the noise too.
