@@ -130,9 +130,10 @@ def _is_of_another_form(search: Search, node: Node, than: Node) -> bool:
 
     However much its formula explains, it is no such effect: a drive that falls behind above a speed only.
     """
-    form = node.trial.forms[0]
-    is_other = len(node.members) == 1 and form is not None and form.is_odd and form.is_seen
-    return is_other and than.score - node.score > FAR_BEHIND
+    if len(node.members) > 1 or than.score - node.score <= FAR_BEHIND:
+        return False
+    (form,) = node.trial.forms
+    return form is not None and form.is_odd and form.is_seen
 
 
 def _is_elsewhere(search: Search, node: Node, learned: Learned) -> bool:
