@@ -21,7 +21,7 @@ RULES = {"runOnly": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "best-practice"
 TIMEOUT_MS = 60_000
 """Limits the wait for what a page shows in the end, on a machine that does much else."""
 START_MS = 180_000
-"""Limits the wait for the browser: on a machine that does much else its first start, from disk, took over 30 s."""
+"""Limits the wait for the browser to start, six times as long as Playwright does: a slow test is better than none."""
 
 
 def executable() -> str | None:

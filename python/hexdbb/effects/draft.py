@@ -155,8 +155,8 @@ def _function(space: Space, curve: Curve, form: Form) -> tuple[float, list[str],
             f'"phase": Shape({_number(phase)}, prior_sigma=1.0, unit="rad")',
         ]
         return height, shapes, _body(f"{base} + np.sin(2.0 * np.pi * x / period + phase)")
-    if fit.kind == "band":
-        return height, *_level(fit, base, height, unit)
+    if fit.kind == "dead band":
+        return height, *_dead_band(fit, base, height, unit, float(np.ptp(curve.at)))
     centre, width = map(float, fit.shapes)
     shapes = [
         f'"centre": Shape({_number(centre)}, prior_sigma={_number(width)}, unit="{unit}")',
@@ -166,20 +166,24 @@ def _function(space: Space, curve: Curve, form: Form) -> tuple[float, list[str],
 
 
 def _height(fit: Fit) -> float:
-    """Return the size of a form in mm, that of the steeper side where it is level between two."""
+    """Return the size of a form, mm; of a dead band mm per unit of its variable, on the steeper side."""
     if fit.kind == "sine":
         return float(np.hypot(*fit.coefficients))
     return float(fit.coefficients[np.argmax(np.abs(fit.coefficients))])
 
 
-def _level(fit: Fit, base: str, height: float, unit: str) -> tuple[list[str], list[str]]:
-    """Return the shapes and the lines of a function that is level between two ends, and linear beyond either."""
+def _dead_band(fit: Fit, base: str, height: float, unit: str, span: float) -> tuple[list[str], list[str]]:
+    """Return the shapes and the lines of a function that is constant between two values, and linear outside them.
+
+    The priors are parts of the variable's range, and the width has no bound: the band may begin at zero, or be a mere
+    change of slope of width zero, on which a bound would be refused.
+    """
     low, width = map(float, fit.shapes)
     below, above = (_number(each / height) for each in fit.coefficients)
-    sigma = _number(SHAPE_PART * max(width, abs(low)))
+    sigma = _number(SHAPE_PART * span)
     shapes = [
         f'"low": Shape({_number(low)}, prior_sigma={sigma}, unit="{unit}")',
-        f'"width": Shape({_number(width)}, prior_sigma={sigma}, lower=0.0, unit="{unit}")',
+        f'"width": Shape({_number(width)}, prior_sigma={sigma}, unit="{unit}")',
     ]
     return shapes, _body(f"{base} + {below} * np.minimum(x - low, 0.0) + {above} * np.maximum(x - low - width, 0.0)")
 

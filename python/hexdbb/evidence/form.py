@@ -30,8 +30,9 @@ Floats = NDArray[np.float64]
 class Form:
     """How far an effect's form differs from the machine's: the relative size of the functions beside it.
 
-    `columns` is how many directions of them stand in the linearisation, from column `first` on. `is_seen` where
-    it stands alone and geometry leaves enough of it to measure its form, `is_odd` where that is quite another one.
+    `columns` is how many directions of them stand in the linearisation, from column `first` on. `is_seen` tells
+    that the form is measured well: no other effect is in the model, and geometry does not imitate nearly all of this
+    one. `is_odd` tells that the machine's form is quite another.
     """
 
     fraction: float
@@ -81,9 +82,10 @@ class Forms:
         return self.with_columns(linear, form), form
 
     def _is_seen(self, fitted: Fitted, known: Known) -> bool:
-        """Check for an effect beside nothing of which geometry leaves a part: its form can then be measured.
+        """Check that the form of an effect is measured well.
 
-        The functions of its form describe also what it and others leave together: play beside lags of all drives.
+        Geometry must not imitate nearly all of the effect. No other effect may be in the model: the functions of the
+        form would also describe what both leave together, as of play beside lags of all drives.
         """
         own, geometry = self.engine.values_of(fitted.model, known.effect, known.elements), self.engine.geometry(fitted)
         if not (own | geometry).all():

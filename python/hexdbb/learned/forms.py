@@ -1,7 +1,7 @@
 """Forms that a function may have: each is fitted by weighted least squares, and explains a part of its variation.
 
 y = constant + linear combination of a few functions of x, of which some have shapes (centre and width of a bump,
-period of a sine, begin and width of a level band) that are searched on a grid and refined (variable projection; Golub
+period of a sine, begin and width of a dead band) that are searched on a grid and refined (variable projection; Golub
 and Pereyra 1973).
 """
 
@@ -28,8 +28,9 @@ SHORTEST = 1.0 / 12.0
 GRID = 24
 """Starts of a shape: neighbours overlap for the narrowest width that is looked for."""
 
-BANDS = 13
-"""Ends of a level band that are tried first: twelfths of the range."""
+BAND_ENDS = 13
+"""Ends of a dead band that are tried first, a twelfth of the range apart: so are most functions' splines. The search
+moves the ends from there."""
 FINEST = 1e-6
 """Last step of the search for a shape, over its range: words and drafts state four digits."""
 
@@ -69,12 +70,12 @@ def _sine(x: Floats, shapes: Floats) -> Floats:
     return np.column_stack([np.sin(turn), np.cos(turn)])
 
 
-def _band(x: Floats, shapes: Floats) -> Floats:
+def _dead_band(x: Floats, shapes: Floats) -> Floats:
     low, width = shapes
     return np.column_stack([np.minimum(x - low, 0.0), np.maximum(x - low - width, 0.0)])
 
 
-BASES: dict[str, Basis] = {"linear": _linear, "step": _step, "sine": _sine, "bump": _bump, "band": _band}
+BASES: dict[str, Basis] = {"linear": _linear, "step": _step, "sine": _sine, "bump": _bump, "dead band": _dead_band}
 """The functions of every form, the simplest form first."""
 
 
@@ -102,9 +103,9 @@ def fits(x: Floats, y: Floats, weights: Floats, period: float = 0.0) -> Iterator
     grid = np.array([(centre, width) for centre in np.linspace(low, high, GRID) for width in widths])
     yield _searched("bump", x, y, weights, grid, [(low, high), (2.0 * spacing, WIDEST * (high - low))])
     if not period:
-        ends = np.linspace(low, high, BANDS)
+        ends = np.linspace(low, high, BAND_ENDS)
         bands = np.array([(one, other - one) for one, other in combinations_with_replacement(ends, 2)])
-        yield _searched("band", x, y, weights, bands, [(low, high), (0.0, high - low)])
+        yield _searched("dead band", x, y, weights, bands, [(low, high), (0.0, high - low)])
 
 
 def _searched(kind: str, x: Floats, y: Floats, weights: Floats, grid: Floats, bounds: list[tuple[float, float]]) -> Fit:

@@ -13,12 +13,16 @@ from hexdbb.learned.variable import BENT, ELAPSED, OF_MEMORY
 
 ENOUGH = 0.9
 """Part of a function's variation that a form must explain to be named: what is left is then below a third of it."""
-LEVEL_ENOUGH = 0.995
-"""The same of what is level between two ends: a parabola, a cubic or an exponential has 0.99 of it explained so."""
+DEAD_BAND_ENOUGH = 0.995
+"""The same of a dead band: a parabola, a cubic and an exponential function, which have none, are explained to 0.989."""
 MUCH_BETTER = 0.5
 """A more complicated form is named where it leaves less than this part of what the simpler leaves."""
-LEVEL_TO = 0.05
-"""Part of what a function changes by on one side of a level band, below which it does not on the other."""
+CONSTANT_TO = 0.05
+"""Part of the change on one side of a dead band below which the other side is called constant: scatter of a hundredth
+of the function makes one of 0.01."""
+NARROW = 0.02
+"""Part of the variable's range below which a dead band is called a change of slope: splines a twelfth of the range
+apart do not show so narrow a one."""
 CERTAIN = 2.0
 """Standard deviations of the band that a function must leave zero by, somewhere, to be told from it."""
 UM_PER_MM = 1e3
@@ -72,7 +76,7 @@ class Form:
     ----------
     kind : str
         `nothing`, `constant`, `two states`, `linear`, `drift`, `step`, `sine`, `bump`,
-        `band`; `varies` where none of these.
+        `dead band`; `varies` where none of these.
     fit : Fit or None
         The form in numbers, variable in its own unit, function in mm; None for `nothing`, `constant`,
         `two states` and `varies`.
@@ -109,7 +113,7 @@ def describe(curve: Curve, period: float = 0.0) -> Form:
     weights = _weights(curve)
     best: Fit | None = None
     for fit in fits(curve.at, curve.value_mm, weights, period):
-        if fit.explained >= (LEVEL_ENOUGH if fit.kind == "band" else ENOUGH) and (
+        if fit.explained >= (DEAD_BAND_ENOUGH if fit.kind == "dead band" else ENOUGH) and (
             best is None or 1.0 - fit.explained < MUCH_BETTER * (1.0 - best.explained) - 1e-12
         ):
             best = fit
@@ -152,24 +156,26 @@ def _words(fit: Fit, curve: Curve) -> str:
     if fit.kind == "sine":
         amplitude = float(np.hypot(*size_um))
         return f"a sine of period {_with(unit, fit.shapes[0] * factor, 4)} and amplitude {amplitude:.3g} µm"
-    if fit.kind == "band":
-        return _level(np.cumsum(fit.shapes) * factor, size_um / factor, unit, curve.at * factor)
+    if fit.kind == "dead band":
+        return _dead_band(np.cumsum(fit.shapes) * factor, size_um / factor, unit, curve.at * factor)
     centre, width = fit.shapes * factor
     name = "bump" if size_um[0] > 0.0 else "dip"
     at, wide = _with(unit, centre, 4), _with(unit, width, 3)
     return f"a {name} of {abs(size_um[0]):.3g} µm at {at}, {wide} wide at half height"
 
 
-def _level(ends: Floats, slopes_um: Floats, unit: str, at: Floats) -> str:
-    """Say where a function is level, and how it goes on: below, above, or on either side."""
+def _dead_band(ends: Floats, slopes_um: Floats, unit: str, at: Floats) -> str:
+    """Return the words for a function that is constant between two values of its variable and linear outside them."""
     low, high = (_with(unit, each, 3) for each in ends)
     below, above = (f"{each:.3g} µm per {unit or 'unit'}" for each in slopes_um)
     changes = np.abs(slopes_um) * [ends[0] - at.min(), at.max() - ends[1]]
-    if changes[0] < LEVEL_TO * changes[1]:
-        return f"level up to {high}, then {above}"
-    if changes[1] < LEVEL_TO * changes[0]:
-        return f"{below} up to {low}, then level"
-    return f"level from {low} to {high}; {below} below, {above} above"
+    if changes[0] < CONSTANT_TO * changes[1]:
+        return f"constant up to {high}, then {above}"
+    if changes[1] < CONSTANT_TO * changes[0]:
+        return f"{below} up to {low}, then constant"
+    if ends[1] - ends[0] < NARROW * np.ptp(at):
+        return f"{below} up to {low}, then {above}"
+    return f"constant from {low} to {high}; {below} below, {above} above"
 
 
 def _with(unit: str, number: float, digits: int) -> str:

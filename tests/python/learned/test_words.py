@@ -54,24 +54,30 @@ def test_a_step_is_named_with_the_sign_of_its_variable() -> None:
 @pytest.mark.parametrize(
     ("below", "above", "ends", "words"),
     [
-        (0.03, 0.05, (220.0, 330.0), r"level from .* mm to .* mm; .* below, .* above"),
-        (0.0, 0.05, (330.0,), r"level up to .* mm, then .* µm per mm"),
-        (-0.03, 0.0, (220.0,), r".* µm per mm up to .* mm, then level"),
+        (0.03, 0.05, (220.0, 330.0), r"constant from .* mm to .* mm; .* below, .* above"),
+        (0.0, 0.05, (330.0,), r"constant up to .* mm, then .* µm per mm"),
+        (-0.03, 0.0, (220.0,), r".* µm per mm up to .* mm, then constant"),
     ],
 )
-def test_what_is_level_between_two_ends_is_named_with_them(
+def test_a_dead_band_is_named_with_its_ends_and_slopes(
     below: float, above: float, ends: tuple[float, ...], words: str
 ) -> None:
     low, high = 220.0, 330.0
     bent = below * np.minimum(AT - low, 0.0) + above * np.maximum(AT - high, 0.0)
     form = describe(curve(AT, bent))
-    assert form.kind == "band" and re.fullmatch(words, form.text)
+    assert form.kind == "dead band" and re.fullmatch(words, form.text)
     assert sorted(numbers(form.text)) == pytest.approx(sorted([*ends, *filter(None, (below, above))]), rel=0.04)
 
 
+def test_a_change_of_slope_is_named_with_its_place() -> None:
+    form = describe(curve(AT, 0.02 * np.minimum(AT - 300.0, 0.0) + 0.07 * np.maximum(AT - 300.0, 0.0)))
+    assert re.fullmatch(r".* µm per mm up to .* mm, then .* µm per mm", form.text)
+    assert numbers(form.text) == pytest.approx([0.02, 300.0, 0.07], rel=0.04)
+
+
 @pytest.mark.parametrize("power", [2, 3])
-def test_what_bends_all_along_is_level_nowhere(power: int) -> None:
-    assert describe(curve(AT, 9.0 * ((AT - 300.0) / 200.0) ** power)).kind != "band"
+def test_a_smooth_curve_has_no_dead_band(power: int) -> None:
+    assert describe(curve(AT, 9.0 * ((AT - 300.0) / 200.0) ** power)).kind != "dead band"
 
 
 def test_a_line_and_a_drift() -> None:
