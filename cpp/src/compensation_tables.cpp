@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lanes.hpp"
+#include "multiversion.hpp"
+
 namespace hexdbb {
 
 namespace {
@@ -97,10 +100,10 @@ TableSet::TableSet(const std::vector<CompensationTable>& tables) {
       if (variable == TableVariable::kSinceReversal) {
         legs_[static_cast<std::size_t>(TableVariable::kTravelDirection)] |= 1u << element;
       }
-      pushes_.push_back({LegPorts::place(first_port + each.column), each.weight});
+      pushes_.push_back(on_row(LegPorts::place(first_port + each.column), each.weight));
       lookups_.back().last_push = place + 1;
       if (variable != TableVariable::kSliders) {
-        is_pushed_.push_back(pushes_.back().place);
+        settled_quantities_.push_back(pushes_.back().quantity);
       } else {
         steepest[element] += times.usual * std::abs(each.weight) * functions_.back().steepest();
         sharpest[element] += times.usual * std::abs(each.weight) * functions_.back().sharpest();
@@ -112,8 +115,15 @@ TableSet::TableSet(const std::vector<CompensationTable>& tables) {
   const auto rest = std::stable_partition(lookups_.begin(), lookups_.end(),
                                           [](const Lookup& each) { return each.variable == TableVariable::kSliders; });
   of_position_ = static_cast<std::size_t>(rest - lookups_.begin());
-  std::sort(is_pushed_.begin(), is_pushed_.end());
-  is_pushed_.erase(std::unique(is_pushed_.begin(), is_pushed_.end()), is_pushed_.end());
+  std::vector<int>& quantities = settled_quantities_;
+  std::sort(quantities.begin(), quantities.end());
+  quantities.erase(std::unique(quantities.begin(), quantities.end()), quantities.end());
+}
+
+TableSet::Push TableSet::on_row(int place, double weight) noexcept {
+  Vector6 legs = Vector6::Zero();
+  legs[place % kLegLanes] = weight;
+  return {place / kLegLanes, LegRow(legs)};
 }
 
 /// Return the value of a function of the travel since a reversal: of either direction of travel as much as is in force.
@@ -134,12 +144,14 @@ double TableSet::since_reversal(const TableState& state, Lookup& lookup) const n
 void TableSet::push(const Lookup& lookup, double value_mm, LegPorts& out) const noexcept {
   for (int at = lookup.first_push; at < lookup.last_push; ++at) {
     const Push& each = pushes_[static_cast<std::size_t>(at)];
-    out.value[each.place] += each.weight * value_mm;
+    double* const row = out.row(each.quantity);
+    store(load(row) + value_mm * load(each.weight.of), row);
   }
 }
 
+HEXDBB_MULTIVERSION_WIDE
 void TableSet::settle(const TableState& state) noexcept {
-  for (const int place : is_pushed_) settled_.value[place] = 0.0;
+  for (const int quantity : settled_quantities_) store(Lanes{}, settled_.row(quantity));
   for (std::size_t at = 0; at < lookups_.size(); ++at) {
     Lookup& each = lookups_[at];
     const double factor = state[each.times][each.element];
@@ -154,8 +166,8 @@ void TableSet::settle(const TableState& state) noexcept {
   }
 }
 
+HEXDBB_MULTIVERSION_WIDE
 void TableSet::add(const LegRow& sliders_mm, LegPorts& out) noexcept {
-  for (const int place : is_pushed_) out.value[place] += settled_.value[place];
   for (std::size_t at = 0; at < of_position_; ++at) {
     Lookup& each = lookups_[at];
     push(each, each.factor * functions_[each.function].at(sliders_mm.of[each.element], each.interval), out);

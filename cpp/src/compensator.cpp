@@ -78,7 +78,7 @@ void Compensator::prepare() {
     const bool is_known_alone = needs(*term.effect, "temperature_c");
     if (is_known_alone || !(polynomials_.fold(term) || waves_.fold(term))) model_.terms.push_back(term);
   }
-  is_folded_ = model_.terms.empty() && tables_.empty();
+  is_folded_ = model_.terms.empty() && !tables_.follows_sliders();
   contraction_ += kLever * tables_.steepest();
   bend_ = kLever * tables_.sharpest();
   for (const TableVariable each : {TableVariable::kLegForce, TableVariable::kDriveLoad, TableVariable::kCarriageLoad}) {
@@ -118,9 +118,9 @@ void Compensator::push_beside(const LegRow& sliders_mm) noexcept {
     for (int column = 0; column < port::kBall; ++column) {
       push_.value[LegPorts::place(column)] += pushed.value[column];
     }
+    push_.repeat();
   }
-  if (!tables_.empty()) tables_.add(sliders_mm, push_);
-  push_.repeat();
+  tables_.add(sliders_mm, push_);
   if (part_ == 1.0) return;
   for (double& each : push_.value) each *= part_;
 }
@@ -214,8 +214,8 @@ SliderTargets Compensator::sliders(const Pose& pose, const Direction& direction)
   const Vector6 nominal_mm = nominal_mm_.legs();
   const bool is_followed = follow(nominal_mm, direction);
   const Vector6 force = needs_leg_force_ ? leg_force(pose, nominal_mm) : Vector6::Zero();
-  set_state(direction, travel_direction_, force);
   set_tables(direction, travel_direction_, force, pose, nominal_mm);
+  set_state(direction, travel_direction_, force);
   if (!solve(pose, out)) return refuse(out.status);
   out.largest_correction_mm = out.correction_mm.cwiseAbs().maxCoeff(&out.slider);
   if (!(out.largest_correction_mm <= limits_.max_correction_mm)) return refuse(Status::kCorrectionLimit);
@@ -245,8 +245,8 @@ PoseEstimate Compensator::pose(const Vector6& sliders_mm, const Direction& direc
       if (needs_leg_force_) force = leg_force(standing.pose, sliders_mm);
     }
   }
-  set_state(direction, travel_direction, force);
   set_tables(direction, travel_direction, force, nominal_pose, sliders_mm);
+  set_state(direction, travel_direction, force);
   const Mechanism mechanism = assemble(model_.nominal, sliders_mm, push_at(LegRow(sliders_mm)).ports());
   const ForwardResult found =
       joints_are_shared(mechanism) ? forward(mechanism, angles_) : forward_six(mechanism, last_pose_);

@@ -87,11 +87,13 @@ void Compensator::follow_reversals(const Vector6& nominal_mm, const Direction& d
   }
 }
 
+/// Set the state of all effects, once that of the tables is set.
 void Compensator::set_state(const Direction& direction, const Vector6& travel_direction,
                             const Vector6& leg_force) noexcept {
   const double warming_k = direction.temperature_c - reference_temperature_c_;
   polynomials_.settle(
-      {direction.velocity_mm_s, travel_direction, leg_force, std::isfinite(warming_k) ? warming_k : 0.0});
+      {direction.velocity_mm_s, travel_direction, leg_force, std::isfinite(warming_k) ? warming_k : 0.0},
+      tables_.settled(), tables_.settled_quantities());
   if (model_.terms.empty()) return;
   State& state = now_.state;
   state.velocity_mm_s.row(0) = direction.velocity_mm_s.transpose();
@@ -124,7 +126,7 @@ void Compensator::set_tables(const Direction& direction, const Vector6& travel_d
 
 /// Compute the static equilibrium of the nominal machine: forces in the legs under a newton of load at the reference
 /// point, tension positive.
-HEXDBB_MULTIVERSION
+HEXDBB_MULTIVERSION_WIDE
 Vector6 Compensator::leg_force(const Pose& pose, const Vector6& nominal_mm) const noexcept {
   const NominalGeometry& nominal = model_.nominal;
   Matrix36 slider_joint;

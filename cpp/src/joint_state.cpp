@@ -193,7 +193,7 @@ double LegPair::across(int leg) const noexcept { return std::sqrt(radius_squared
 
 double LegPair::rate_rad_s(int leg) const noexcept { return -foot_mm_s[leg] / std::sqrt(radius_squared); }
 
-HEXDBB_MULTIVERSION
+HEXDBB_MULTIVERSION_WIDE
 void fill_joints(const NominalGeometry& nominal, const Pose& pose, const Vector6& sliders_mm,
                  const Vector6& velocity_mm_s, const Vector6& leg_force, const TableSet& tables,
                  TableState& state) noexcept {

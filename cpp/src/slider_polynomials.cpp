@@ -97,9 +97,7 @@ void SliderPolynomials::find_varying() {
   }
 }
 
-HEXDBB_MULTIVERSION_WIDE
-void SliderPolynomials::settle(const InstantState& state) noexcept {
-  if (varying_.empty()) return;
+inline void SliderPolynomials::settle_varying(const InstantState& state) noexcept {
   const LegRow factors[] = {LegRow(), LegRow(state.velocity_mm_s), LegRow(state.travel_direction),
                             LegRow(state.leg_force), LegRow(Vector6::Constant(state.warming_k))};
   for (const Varying& each : varying_) {
@@ -109,6 +107,17 @@ void SliderPolynomials::settle(const InstantState& state) noexcept {
     double* const out = settled_[each.power].row(each.quantity);
     store(load(out) + load(factors[each.factor].of) * load(of_factor_[each.factor][each.power].row(each.quantity)),
           out);
+  }
+}
+
+HEXDBB_MULTIVERSION_WIDE
+void SliderPolynomials::settle(const InstantState& state, const LegPorts& beside,
+                               const std::vector<int>& quantities) noexcept {
+  for (const int quantity : quantities) store(load(of_factor_[0][0].row(quantity)), settled_[0].row(quantity));
+  if (!varying_.empty()) settle_varying(state);
+  for (const int quantity : quantities) {
+    double* const out = settled_[0].row(quantity);
+    store(load(out) + load(beside.row(quantity)), out);
   }
 }
 

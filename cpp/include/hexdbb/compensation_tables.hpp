@@ -150,10 +150,17 @@ class TableSet {
   double steepest() const noexcept { return steepest_; }
   double sharpest() const noexcept { return sharpest_; }
 
-  /// Set the state for the following calls of add().
+  /// Whether some function depends on where the sliders are.
+  bool follows_sliders() const noexcept { return of_position_ > 0; }
+
+  /// Set the state for the following calls.
   void settle(const TableState& state) noexcept;
 
-  /// Add the pushes with the sliders at these coordinates; `push` has to be repeated() then.
+  /// Pushes that do not depend on where the sliders are, zero but for these quantities of LegPorts.
+  const LegPorts& settled() const noexcept { return settled_; }
+  const std::vector<int>& settled_quantities() const noexcept { return settled_quantities_; }
+
+  /// Add the pushes that do, with the sliders at these coordinates.
   void add(const LegRow& sliders_mm, LegPorts& push) noexcept;
 
  private:
@@ -165,11 +172,13 @@ class TableSet {
     int interval = 0;
     double factor = 0.0;
   };
+  /// On a whole row: single numbers written before a row is read would stall the processor.
   struct Push {
-    int place;  // of LegPorts
-    double weight;
+    int quantity;  // of LegPorts
+    LegRow weight;
   };
 
+  static Push on_row(int place, double weight) noexcept;
   double since_reversal(const TableState& state, Lookup& lookup) const noexcept;
   void push(const Lookup& lookup, double value_mm, LegPorts& out) const noexcept;
 
@@ -179,8 +188,8 @@ class TableSet {
   std::vector<Push> pushes_;
   std::array<unsigned, static_cast<std::size_t>(TableVariable::kCount)> legs_{};
   double steepest_ = 0.0, sharpest_ = 0.0;
-  LegPorts settled_;            // what does not depend on slider positions
-  std::vector<int> is_pushed_;  // places of settled_ that may be pushed
+  LegPorts settled_;
+  std::vector<int> settled_quantities_;
 };
 
 }  // namespace hexdbb

@@ -33,8 +33,9 @@ class SliderPolynomials {
   /// Add an effect. Return false, and add nothing, where it does not have this form.
   bool fold(const Term& term);
 
-  /// Set the state for the following evaluations.
-  void settle(const InstantState& state) noexcept;
+  /// Set the state for the following evaluations, and pushes beside it that are constant then: those of `quantities`.
+  void settle(const InstantState& state, const LegPorts& beside = LegPorts(),
+              const std::vector<int>& quantities = {}) noexcept;
 
   /// Coefficients of each power of u in the state set.
   const std::array<LegPorts, kPowers>& settled() const noexcept { return settled_; }
@@ -53,6 +54,7 @@ class SliderPolynomials {
 
   Coefficients coefficients_of(const Term& term, int factor) const;
   void find_varying();
+  void settle_varying(const InstantState& state) noexcept;
 
   Machine machine_;
   LegRow middle_mm_, per_half_;
