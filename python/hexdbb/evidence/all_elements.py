@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.evidence.absent import Signatures
+from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.physical import is_one_sided
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
@@ -28,7 +29,9 @@ def at_all_elements(search: Search, node: Node, screen: Screen, single: Sequence
     """Return effects at all elements that explain more so than their forms may at the best one alone.
 
     Effects of one value at each, of one sign by their nature. Others only where they err alike, one value for all
-    explaining most of what a value for each does: six leads, some long and some short, are as free as a function.
+    explaining most of what a value for each does, or where what each element explains alone adds up to what all do:
+    six leads, some long and some short, stand in for each other and are as free as a function; pitch errors of six
+    screws do not.
 
     Parameters
     ----------
@@ -81,8 +84,17 @@ def _at_all(
     if scored.share - best <= criteria.form_variance:
         return None
     has_one_sign = all(is_one_sided(info, whose[place][2]) for place in at) and len(at) == len(elements)
+    if _are_apart([each.share for each in single if effect_of(each.hypothesis) == effect], scored.share, criteria):
+        return scored
     alike = scored if has_one_sign else screen.at_several(known, _alike(table, whose, at))
     return alike if alike.share >= criteria.explained_min * scored.share else None
+
+
+def _are_apart(shares: Sequence[float], together: float, criteria: Criteria) -> bool:
+    """Check that elements explain alone, added up, what they do together, and that enough are more than a form."""
+    seen = sum(each > criteria.form_variance * together for each in shares)
+    added = sum(each for each in shares if each > 0.0)
+    return seen >= FEWEST and criteria.explained_min * together <= added <= together / criteria.explained_min
 
 
 def _alike(table: Floats, whose: Sequence[tuple[str, str, str, float]], at: Sequence[int]) -> Floats:

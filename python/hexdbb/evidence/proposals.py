@@ -228,8 +228,8 @@ def periods(
 ) -> Iterator[Proposal]:
     """Yield the strongest periods: of the places of sliders and guideways, the gauge's scale, in time of what shifts.
 
-    A rail waves for both of its carriages, the balls that roll in one carriage lift that alone. The cup stands for the
-    ball too, which moves alike.
+    A rail waves for both of its carriages, sideways, up and down, or aslant; the balls that roll in one carriage lift
+    that alone. The cup stands for the ball too, which moves alike.
 
     Parameters
     ----------
@@ -241,7 +241,7 @@ def periods(
     """
     position, time_s = readings.state["sliders_mm"], readings.state["time_s"]
     places = [(place, each) for place in ("slider", "slider_joint") for each in range(1, 7)]
-    places += [(place, each) for place in ("lateral", "vertical") for each in range(1, 4)]
+    places += [(place, each) for place in ("lateral", "vertical", "guideway") for each in range(1, 4)]
     machine = readings.state.machine
     for place, element in places:
         learned = Learned(place, element, periodic("position", 1.0))

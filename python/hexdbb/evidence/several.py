@@ -24,7 +24,7 @@ from hexdbb.evidence.settling import (
     predicts,
 )
 from hexdbb.evidence.shortlist import shortlist
-from hexdbb.evidence.some_elements import at_those_seen, of_wrong_sign
+from hexdbb.evidence.some_elements import at_those_seen, count_kin, of_wrong_sign
 from hexdbb.evidence.trial import Member, Trial
 from hexdbb.learned import ALL
 
@@ -142,10 +142,12 @@ def beside(search: Search, node: Node) -> list[Scored]:
 def as_one_cause(search: Search, members: Sequence[Member]) -> tuple[Member, ...] | None:
     """Return a set, its last an effect at several elements, with the effect as one cause at all of them.
 
+    Those at which the model has it already are not looked for.
+
     Returns
     -------
     tuple of Member or None
-        The same set where its last is at one element; None where the set does not have the effect at all elements.
+        The same set where its last is at one element; None where set and model do not have the effect at all elements.
     """
     *before, last = members
     if not is_of_several(last.hypothesis):
@@ -154,7 +156,12 @@ def as_one_cause(search: Search, members: Sequence[Member]) -> tuple[Member, ...
     every = tuple(search.engine.base.info(effect).elements)
     there = {element for each in members if effect_of(each.hypothesis) == effect for element in _elements(each)}
     others = (each for each in before if effect_of(each.hypothesis) != effect)
-    return (*others, Member(_of_all(search, effect, every))) if there == set(every) else None
+    if there == set(every):
+        return (*others, Member(_of_all(search, effect, every)))
+    present = {element for name, element in search.trials.present_elements if name == effect}
+    left = Known(effect, tuple(each for each in every if each in there))
+    count_kin(search, [left])
+    return (*others, Member(left)) if there | present == set(every) else None
 
 
 def is_at_most(search: Search, trial: Trial) -> bool:

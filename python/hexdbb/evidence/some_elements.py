@@ -55,7 +55,7 @@ def at_those_seen(search: Search, fewer: Node, members: Sequence[Member], *, one
         found = (*others, *map(Member, last))
         if len(found) > search.criteria.max_effects:
             return None
-        _count_kin(search, last)
+        count_kin(search, last)
         return search.node(found, near=fewer)
     except RunError:
         return None
@@ -110,7 +110,7 @@ def _seen(search: Search, trial: Trial) -> tuple[str, ...]:
     return tuple(each for each in known.elements if search.trials.size(trial, Known(known.effect, (each,))) > least)
 
 
-def _count_kin(search: Search, every: Sequence[Known]) -> None:
+def count_kin(search: Search, every: Sequence[Known]) -> None:
     """Count the functions of single elements among the kin of an effect at several."""
     for known in every:
         if known.name not in search.kin:

@@ -8,6 +8,8 @@ from hexdbb.diagnosis import Sufficiency
 from hexdbb.evidence.admissible import Checked
 from hexdbb.evidence.as_forms import as_forms
 from hexdbb.evidence.beside import with_known_left
+from hexdbb.evidence.by_function import or_by_functions
+from hexdbb.evidence.by_period import with_periods
 from hexdbb.evidence.each_element import or_at_each_element
 from hexdbb.evidence.exchange import of_better_form, settled, with_found_beside
 from hexdbb.evidence.fine_enough import or_another_beside, or_one_fine_enough, or_one_place
@@ -132,7 +134,7 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     node = with_what_forms_hide(search, settled(search, node))
     node = without_borrowed_forms(search, of_better_form(search, node))
     node = or_one_that_predicts(search, or_fewer_by_formulas(search, with_elements_that_predict(search, node)))
-    node = with_turning(search, with_tuned_numbers(search, node))
+    node = with_turning(search, with_tuned_numbers(search, or_by_functions(search, node)))
     node = or_another_beside(search, node)
     # What its slider's place says of a leg, the joint of the slider says as well: the rail is asked before and after.
     fine = or_at_the_rails(search, or_one_fine_enough(search, node))
@@ -140,7 +142,7 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     node = with_known_left(search, node if fine is node else in_known_words(search, fine))
     if (forms := as_forms(search, node)) is not None:
         return Verdict("none", (), search.root, None, before, forms)
-    node = in_simple_words(search, node)
+    node = in_simple_words(search, with_periods(search, node))
     node, wider = or_one_place(search, *without_stand_ins(search, node, refined(search, node)))
     node, wider = with_known_of_form(search, with_numbers_of(search, node, wider), wider)
     outdone = ""

@@ -1,0 +1,74 @@
+"""A learned function in place of a known effect that fits by the functions of its form alone."""
+
+from __future__ import annotations
+
+from hexdbb.evidence.needed import explains_by_its_formula
+from hexdbb.evidence.node import Node
+from hexdbb.evidence.place import at_its_place
+from hexdbb.evidence.readings import ARC
+from hexdbb.evidence.screen import Known
+from hexdbb.evidence.search import Search
+from hexdbb.evidence.settling import explains_nearly, predicts
+from hexdbb.evidence.sure import is_for_sure
+from hexdbb.evidence.trial import Member
+from hexdbb.learned import Learned
+
+
+def or_by_functions(search: Search, node: Node) -> Node:
+    """Return a set with learned functions in place of known effects that the functions of their forms make fit.
+
+    Geometry takes nearly all of a ball that sits otherwise in one set-up, and a twentieth of its push, as a step from
+    each circle to the next, described a plate that bends as it is tilted. That predicts no other circle; a function of
+    the tilt does.
+
+    Parameters
+    ----------
+    search : Search
+    node : Node
+        Returned unchanged where it is for sure, or no function at the effect's place that was tried beside the others
+        explains nearly as much and errs less on what was left out.
+    """
+    if is_for_sure(search, node):
+        return node
+    for member in node.members:
+        if _is_by_form(search, node, member):
+            node = max(_instead(search, node, member), key=lambda each: each.score, default=node)
+    return node
+
+
+def _is_by_form(search: Search, node: Node, member: Member) -> bool:
+    """Check for a known effect of which the functions of its form explain the larger part of what it does."""
+    form = node.trial.forms[node.members.index(member)]
+    if not isinstance(member.hypothesis, Known) or form is None or not form.columns:
+        return False
+    others = search.trials.of_fewer(node.without(member), node.trial)
+    return not explains_by_its_formula(search, node, form, others, search.criteria.formula_most)
+
+
+def _instead(search: Search, node: Node, member: Member) -> list[Node]:
+    """Return the sets tried that have a function at the place of a known effect instead, and predict better."""
+    others = {each.hypothesis for each in node.without(member)}
+    found = []
+    for each in search.nodes:
+        new = {*each.hypotheses} - others
+        if len(each.members) != len(node.members) or len(new) != 1 or each.trial.refused:
+            continue
+        (learned,) = new
+        if not isinstance(learned, Learned) or not at_its_place(search, member.hypothesis, learned):
+            continue
+        if explains_nearly(search, each.trial.left, node.trial.left) and _predicts_better(search, each, node, member):
+            found.append(each)
+    return found
+
+
+def _predicts_better(search: Search, one: Node, node: Node, member: Member) -> bool:
+    """Check that a set errs less than another; one that follows time by the form of a member predicts nothing."""
+    form = node.trial.forms[node.members.index(member)]
+    is_of_time = form is not None and any(Learned.parse(name).is_of_time for name in form.functions)
+    return predicts(search, one) and (is_of_time or _worst(search, one) < _worst(search, node))
+
+
+def _worst(search: Search, node: Node) -> float:
+    """Return the error of the grouping that a set predicts worst; what it expects of itself is no excuse here."""
+    held = search.checked(node).heldout
+    return max((each.after for grouping, each in held.items() if grouping != ARC), default=0.0)
