@@ -180,7 +180,8 @@ class Criteria:
     formula_most : float
         Part of the unexplained that the formula of an effect must explain for the function in which it lives to be its
         form, not another cause: the larger part. Of a lead 20 % off its form, whose straight part geometry takes too,
-        it was 0.74.
+        it was 0.74. The same part of what one of several that are not for sure does beside the others, where a function
+        at its place predicts.
     formula_beside : float
         Part of what functions leave that the formula of an effect elsewhere must explain to stand beside them: of 35
         records it was 0.46 and more for four effects that were there, for others 0.23 and less but for two at the place
