@@ -55,6 +55,7 @@ def _instead(search: Search, node: Node, member: Member) -> Iterator[Node]:
         search.engine.readings,
         search.criteria,
         lambda each: (each.place, each.element, each.variable.column) == (free.place, free.element, COLUMN),
+        aslant=True,
     )
     proposed = list(found)
     search.learnable.propose(proposed)

@@ -225,11 +225,13 @@ def periods(
     readings: Readings,
     criteria: Criteria,
     is_asked_for: Callable[[Learned], bool] = lambda _: True,
+    *,
+    aslant: bool = False,
 ) -> Iterator[Proposal]:
     """Yield the strongest periods: of the places of sliders and guideways, the gauge's scale, in time of what shifts.
 
-    A rail waves for both of its carriages, sideways, up and down, or aslant; the balls that roll in one carriage lift
-    that alone. The cup stands for the ball too, which moves alike.
+    A rail waves for both of its carriages, the balls that roll in one carriage lift that alone. The cup stands for the
+    ball too, which moves alike.
 
     Parameters
     ----------
@@ -238,10 +240,15 @@ def periods(
     criteria : Criteria
     is_asked_for : callable, optional
         Tells of a function, whatever its period, whether it is.
+    aslant : bool, optional
+        Whether guideways wave sideways and up and down at once, too: not where a search begins, which would fit these
+        in the place of others.
     """
     position, time_s = readings.state["sliders_mm"], readings.state["time_s"]
     places = [(place, each) for place in ("slider", "slider_joint") for each in range(1, 7)]
-    places += [(place, each) for place in ("lateral", "vertical", "guideway") for each in range(1, 4)]
+    places += [
+        (place, each) for place in ("lateral", "vertical", *(["guideway"] if aslant else [])) for each in range(1, 4)
+    ]
     machine = readings.state.machine
     for place, element in places:
         learned = Learned(place, element, periodic("position", 1.0))
