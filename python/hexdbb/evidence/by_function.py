@@ -62,10 +62,11 @@ def _instead(search: Search, node: Node, member: Member) -> list[Node]:
 
 
 def _predicts_better(search: Search, one: Node, node: Node, member: Member) -> bool:
-    """Check that a set errs less than another; one that follows time by the form of a member predicts nothing."""
+    """Check that a set errs far less than another; one that follows time by the form of a member predicts nothing."""
     form = node.trial.forms[node.members.index(member)]
     is_of_time = form is not None and any(Learned.parse(name).is_of_time for name in form.functions)
-    return predicts(search, one) and (is_of_time or _worst(search, one) < _worst(search, node))
+    most = search.criteria.far_better * _worst(search, node)
+    return predicts(search, one) and (is_of_time or _worst(search, one) < most)
 
 
 def _worst(search: Search, node: Node) -> float:
