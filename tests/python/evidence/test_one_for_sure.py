@@ -13,9 +13,11 @@ from hexdbb.evidence.fine_enough import or_one_place
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.trial import Member
+from hexdbb.learned import Learned
 
 BALL, OTHERWISE = Known("ball_eccentricity", ("1",)), Known("ball_eccentricity", ("2",))
 BOW = Known("straightness", ("1",))
+LOAD = Learned.parse("learned:load:angle")
 
 
 def node_of(score: float, left: float, *hypotheses: Hypothesis) -> Node:
@@ -57,3 +59,22 @@ def test_an_effect_that_is_for_sure_alone_is_named_alone(chosen: Any) -> None:
 )
 def test_another_leaves_the_causes_as_they_are(chosen: Any, case: dict[str, Any]) -> None:
     assert chosen(**case) == (BALL.name, BOW.name)
+
+
+@pytest.mark.parametrize(
+    ("several_leave", "one_leaves", "name"),
+    [(1.05, 3.3, BALL.name), (1.05, 1.02, LOAD.name), (30.0, 3.3, LOAD.name)],
+    ids=["known ones say all", "both say all", "known ones say a part"],
+)
+def test_known_effects_that_explain_all_do_not_give_way_to_a_part(
+    monkeypatch: pytest.MonkeyPatch, several_leave: float, one_leaves: float, name: str
+) -> None:
+    """Functions of the same place beside the one, which would have more evidence, change nothing in that."""
+    several, one = node_of(-5.0, several_leave, BALL, BOW), node_of(-20.0, one_leaves, LOAD)
+    monkeypatch.setattr(fine_enough, "is_for_sure", lambda *_: False)
+    monkeypatch.setattr(fine_enough, "predicts", lambda *_: True)
+    monkeypatch.setattr(fine_enough, "finely_tuned", lambda _, node: node)
+    monkeypatch.setattr(fine_enough, "refined", lambda _, node: node_of(0.0, 1.0, *node.hypotheses))
+    root = SimpleNamespace(trial=SimpleNamespace(left=37.0))
+    search: Any = SimpleNamespace(nodes=[several, one], criteria=DEFAULT, root=root)
+    assert or_one_place(search, several, several)[0].trial.names[0] == name
