@@ -95,7 +95,7 @@ def or_one_place(search: Search, node: Node, wider: Node) -> tuple[Node, Node]:
 
     Several causes that are not for sure describe what one does whose law no function has: so does the function that
     comes nearest to it, with others of its place beside it, and it is one cause. Known effects that explain all do not
-    give way to one that explains a part: a pull on the platform that turns with the bar, refined, followed a bow and a
+    give way to one that explains less: a pull on the platform that turns with the bar, refined, followed a bow and a
     lead, each 17 % off.
 
     Parameters
@@ -109,13 +109,17 @@ def or_one_place(search: Search, node: Node, wider: Node) -> tuple[Node, Node]:
     if (sure := _one_for_sure(search, node)) is not None:
         return sure, refined(search, sure)
     for alone in islice((each for each in _tuned(search, search.criteria.far_better) if not each.trial.is_of_time), 1):
-        if node.is_known and is_complete(search, node) and not is_complete(search, alone):
+        if node.is_known and is_complete(search, node) and not _says_nearly_as_much(search, alone, node):
             continue  # known effects say all, and what one function leaves only more of its place would
         if predicts(search, alone) or _explains_far_more(search, alone, node):
             refined_alone = refined(search, alone)
             if refined_alone.score > wider.score:
                 return alone, refined_alone
     return node, wider
+
+
+def _says_nearly_as_much(search: Search, alone: Node, several: Node) -> bool:
+    return explains_nearly(search, alone.trial.left, several.trial.left)
 
 
 def _one_for_sure(search: Search, several: Node) -> Node | None:
