@@ -31,7 +31,7 @@ def at_all_elements(search: Search, node: Node, screen: Screen, single: Sequence
     Effects of one value at each, of one sign by their nature. Others only where they err alike, one value for all
     explaining most of what a value for each does, or where what each element explains alone adds up to what all do:
     six leads, some long and some short, stand in for each other and are as free as a function; pitch errors of six
-    screws do not.
+    screws do not. Not balls in their set-ups: these are free to sit anywhere.
 
     Parameters
     ----------
@@ -84,7 +84,8 @@ def _at_all(
     if scored.share - best <= criteria.form_variance:
         return None
     has_one_sign = all(is_one_sided(info, whose[place][2]) for place in at) and len(at) == len(elements)
-    if _are_apart([each.share for each in single if effect_of(each.hypothesis) == effect], scored.share, criteria):
+    shares = [each.share for each in single if effect_of(each.hypothesis) == effect]
+    if not info.is_set_up and _are_apart(shares, scored.share, criteria):
         return scored
     alike = scored if has_one_sign else screen.at_several(known, _alike(table, whose, at))
     return alike if alike.share >= criteria.explained_min * scored.share else None

@@ -203,7 +203,7 @@ def _by_variable(groups: Sequence[tuple[Learned, ...]]) -> list[tuple[Learned, .
     """
     found: dict[tuple[str, str], dict[Learned, None]] = {}
     for group in groups:
-        few = [_of_few(each) if each.is_of_time else each for each in group]
+        few = [_of_few(each) if each.is_of_time and not each.variable.instants else each for each in group]
         found.setdefault((group[0].place, group[0].variable.name), {}).update(dict.fromkeys(few))
     return [tuple(each) for each in found.values()]
 

@@ -14,8 +14,10 @@ from hexdbb.discovery import AutoStep, discover_all
 from hexdbb.evidence.all_elements import _are_apart
 from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.evidence.engine import Engine
+from hexdbb.evidence.form import _by_variable
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.verdict import Verdict, judge
+from hexdbb.learned import Learned
 from hexdbb.ledger import add_effect
 from hexdbb.model import Model, new_model
 from hexdbb.plan import load_plan
@@ -86,3 +88,12 @@ def test_elements_are_apart_where_what_each_explains_adds_up(
     shares: Sequence[float], together: float, *, are_apart: bool
 ) -> None:
     assert _are_apart(shares, together, DEFAULT) is are_apart
+
+
+def test_steps_of_a_form_at_several_elements_stay_as_many() -> None:
+    """Of time as free functions are, but at instants that are given: their number is no choice."""
+    steps = Learned.parse("learned:ball:step@100/200/300/400/500/600/700/800/900/1000/1100/1200/1300")
+    drift = Learned.parse("learned:leg:1:fine_time")
+    ((few_steps,), (few_splines,)) = _by_variable([(steps,), (drift,)])
+    assert few_steps == steps
+    assert few_splines.size < drift.size
