@@ -65,8 +65,8 @@ times the median.
 {poses}
 
 A table of a learned or user's effect, added to geometry and backlash; both compensators compute the same pose in turn,
-and the clock's own time is in both. The first table of a leg's force, or of what turns at the platform, includes
-solving for these. Goal: 60 ns.
+and the clock's own time is in both; means of the middle half of all calls. The first table of a leg's force, or of what
+turns at the platform, includes solving for these. Goal: 60 ns.
 
 | function of | without | with | added | with / without |
 |---|---|---|---|---|
