@@ -31,7 +31,7 @@ def at_all_elements(search: Search, node: Node, screen: Screen, single: Sequence
     Effects of one value at each, of one sign by their nature. Others only where they err alike, one value for all
     explaining most of what a value for each does, or where what each element explains alone adds up to what all do:
     six leads, some long and some short, stand in for each other and are as free as a function; pitch errors of six
-    screws do not. Not balls in their set-ups: these are free to sit anywhere.
+    screws do not. Effects of the set-up are excluded: a ball may sit anywhere in each set-up.
 
     Parameters
     ----------

@@ -159,9 +159,11 @@ def as_one_cause(search: Search, members: Sequence[Member]) -> tuple[Member, ...
     if there == set(every):
         return (*others, Member(_of_all(search, effect, every)))
     present = {element for name, element in search.trials.present_elements if name == effect}
+    if there | present != set(every):
+        return None
     left = Known(effect, tuple(each for each in every if each in there))
     count_kin(search, [left])
-    return (*others, Member(left)) if there | present == set(every) else None
+    return (*others, Member(left))
 
 
 def is_at_most(search: Search, trial: Trial) -> bool:

@@ -91,7 +91,7 @@ def test_elements_are_apart_where_what_each_explains_adds_up(
 
 
 def test_steps_of_a_form_at_several_elements_stay_as_many() -> None:
-    """Of time as free functions are, but at instants that are given: their number is no choice."""
+    """Steps are functions of time, but their instants are given, so that their number must not be reduced."""
     steps = Learned.parse("learned:ball:step@100/200/300/400/500/600/700/800/900/1000/1100/1200/1300")
     drift = Learned.parse("learned:leg:1:fine_time")
     ((few_steps,), (few_splines,)) = _by_variable([(steps,), (drift,)])
