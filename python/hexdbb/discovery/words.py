@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+import numpy as np
+
 from hexdbb.discovery.result import Grouping
 from hexdbb.evidence.heldout import HeldOut
 from hexdbb.learned import Learned, describe
-from hexdbb.learned.numbered import NUMBERED, has_chosen_period, is_relay
+from hexdbb.learned.numbered import NUMBERED, creeps, has_chosen_period, is_relay, number_of
 from hexdbb.learned.shown import sentence, whole_place_words
+from hexdbb.learned.words import UM_PER_MM
 from hexdbb.model import Term
 
 GROUPS: dict[Grouping, str] = {"circle": "circles", "feed": "feeds", "direction": "directions", "lap": "laps"}
@@ -26,10 +29,13 @@ def function_clause(term: Term) -> str:
     effect = term.learned
     assert effect is not None
     space = effect.space
-    if NUMBERED in space.hypothesis.variable.name:  # instants or a period say more than the function's form
-        return place_clause(space.hypothesis)
     curves = effect.curves(term.values)
     clear = [k for k, curve in enumerate(curves) if describe(curve, space.period).kind != "nothing"]
+    if creeps(space.hypothesis.variable):
+        size_um = UM_PER_MM * float(np.linalg.norm([curves[k].value_mm[0] for k in clear]))
+        return place_clause(space.hypothesis).replace("creeps", f"creeps by {size_um:.3g} µm")
+    if NUMBERED in space.hypothesis.variable.name:  # instants or a period say more than the function's form
+        return place_clause(space.hypothesis)
     return ", ".join(sentence(space.hypothesis, curves[k], space.period, k) for k in clear or [0])
 
 
@@ -40,6 +46,8 @@ def place_clause(hypothesis: Learned) -> str:
         return f"{place}: shifts at {joined([f'{each:.0f} s' for each in variable.instants])}"
     if is_relay(variable):
         return f"{place}: in {variable.words}"
+    if creeps(variable):
+        return f"{place}: creeps towards an end within about {number_of(variable):.3g} s"
     if NUMBERED in variable.name:
         repeats = f"repeats every {variable.period:.4g} {variable.unit}"
         return f"{place}: {repeats if has_chosen_period(variable) else f'follows the {variable.words}'}"

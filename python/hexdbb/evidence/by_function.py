@@ -25,10 +25,12 @@ def or_by_functions(search: Search, node: Node) -> Node:
     ----------
     search : Search
     node : Node
-        Returned unchanged where it is for sure, or no function at the effect's place that was tried beside the others
-        explains nearly as much and errs less on what was left out.
+        Returned unchanged where it is for sure, or of one cause, or no function at the effect's place that was tried
+        beside the others explains nearly as much and errs less on what was left out.
     """
-    if is_for_sure(search, node):
+    # One alone keeps its name: of a bow of which geometry takes nearly all only its form is seen, beside nothing that
+    # the form could have borrowed.
+    if len(node.members) == 1 or is_for_sure(search, node):
         return node
     for member in node.members:
         if _is_by_form(search, node, member):

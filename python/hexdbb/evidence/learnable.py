@@ -12,13 +12,16 @@ from hexdbb.evidence.readings import Readings
 from hexdbb.evidence.screen import Hypothesis
 from hexdbb.evidence.signatures import all_varying, varying
 from hexdbb.learned import ALL, Learned, crossed_hypotheses, further_hypotheses, grown_with_warmth, products
-from hexdbb.learned.numbered import step
+from hexdbb.learned.numbered import by_mount, step
 from hexdbb.learned.variables import BAR_AZIMUTH
 
 MOST_CIRCLES = 24
 """Beginnings of circles, from which on what sits otherwise in each is left to functions of time: these have no more
 values (`homes.MOST_COLUMNS`)."""
 
+MOST_MOUNTS = 3
+"""Mounts of the cup, each with functions of its own, up to which they have no more splines than a form may have
+(`homes.MOST_COLUMNS`)."""
 SAME_ANGLE = 1e-3
 """Mean of 1 - cos(difference) below which two angles count as the same variable: 2.6 degrees RMS, a sixth of the width
 of a spline over them."""
@@ -53,10 +56,21 @@ def by_circle(readings: Readings) -> list[Learned]:
     return list(varying((Learned(place, ALL, variable) for place in ("ball", "cup")), readings))
 
 
+def by_mount_of(readings: Readings) -> list[Learned]:
+    """Return what lets the ball's seat give way to the bar, or be out of round, otherwise in every set-up.
+
+    Of a ball that sits otherwise geometry takes nearly all, and then most of what is seen is how its seat differs.
+    """
+    mounts = np.unique(readings.state["mount"])
+    if not 1 < len(mounts) <= MOST_MOUNTS:
+        return []
+    return list(varying((Learned("ball", ALL, by_mount((1 + mounts[1:]).tolist())),), readings))
+
+
 def _of_forms(readings: Readings) -> list[Learned]:
     """Return products that only describe forms, growth with warmth, and steps from circle to circle."""
     of_forms = (each for each in all_varying(readings, of_forms=True) if each.variable.times)
-    return [*of_forms, *varying(grown_with_warmth(), readings), *by_circle(readings)]
+    return [*of_forms, *varying(grown_with_warmth(), readings), *by_circle(readings), *by_mount_of(readings)]
 
 
 class Learnable:

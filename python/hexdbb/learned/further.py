@@ -37,6 +37,8 @@ HEATED_THERE = tuple(following(v.POSITION, LINGERING, each) for each in CONSTANT
 within seconds is a function of the position."""
 LATE_WARMING = tuple(following(v.WARMING, LAGGED, each) for each in HEATS_S)
 """What is thick warms later than the thermometer."""
+CREEPING = tuple(following(v.GROWTH, SETTLING, each) for each in GROWTHS_S)
+"""A cup or a ball that was just fixed creeps into its seat."""
 BY_TRAVEL = "travel_direction", "direction of travel"
 BY_CIRCLE = "direction", "direction of the circle"
 POSITION_EACH_WAY = each_way(v.POSITION, *BY_TRAVEL)
@@ -162,6 +164,7 @@ OF_BALL = (
     *(v.ANGLE, v.ANGLE_DIRECTION, v.SPEED),
     *(*LINGERING_ANGLE, *LATE_WARMING),
     *ROCKING,
+    *CREEPING,
     *(product(factor, v.ANGLE) for factor in ("speed", "time")),
 )
 OF_GUIDEWAY = (
@@ -270,8 +273,8 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
 """Further variables of single elements by place."""
 RELAYS: dict[str, tuple[Variable, ...]] = {
     "slider": (v.POSITION, v.DRIVE_LOAD),
-    "leg": (v.FORCE, v.JOINT_ANGLE),
-    "slider_joint": (v.POSITION, v.JOINT_ANGLE),
+    "leg": (v.FORCE, v.JOINT_ANGLE, v.SWING_ANGLE),
+    "slider_joint": (v.POSITION, v.JOINT_ANGLE, v.SWING_ANGLE),
     "platform_joint": (v.FORCE, v.PLATFORM_JOINT_ANGLE),
     "cup": LEANING,
     "ball": SINKING[1:],

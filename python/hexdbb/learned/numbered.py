@@ -9,7 +9,8 @@ changed (`joint_angle_relaxing@12`, the variable less the same lag), functions w
 its angle in degrees), a vector's part along a direction (`acceleration_along@45`, degrees in the x-y plane), and
 a function whose sign changes smoothly with the direction of motion, as friction does (`direction_position_turning@0.5`,
 transition rate in mm/s or rad/s), and two states, of which one begins where a variable rises to a number and the other
-where it falls to a lower one (`leg_force_relay@7.1/14.5`, `position_along@35_relay@-8/11`).
+where it falls to a lower one (`leg_force_relay@7.1/14.5`, `position_along@35_relay@-8/11`). A form's alone are functions
+of the bar's direction that are others with some mounts of the cup (`bar_angle_by_mount@2/3`, mounts from 1).
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
-from hexdbb.learned.variable import LINGERING, OF_MEMORY, Variable
+from hexdbb.learned.variable import ELAPSED, IN_MOUNT, LINGERING, OF_MEMORY, TURN, Variable
 
 NUMBERED = "@"
 """In the name of a variable: what follows are the numbers."""
@@ -51,6 +52,9 @@ POSITION_SPLINES = 12
 such a bend was taken for a leg's swing."""
 GRAVITY_SPLINES = 8
 """Splines over gravity's share in the platform: as many as over its roll (`variables.ROLL`)."""
+BY_MOUNT = "bar_angle_by_mount"
+SEAT_SPLINES = 8
+"""Splines of a turn of the bar about a seat: a seat gives, or is out of round, by a few lobes."""
 LAGGED, RELAXING, SETTLING, AFTER, ALONG, TURNING = "lagged", "relaxing", "settling", "after", "along", "turning"
 SLIPPING = "slipping"
 RELAY = "relay"
@@ -95,6 +99,21 @@ def step(instants_s: Sequence[float]) -> Variable:
     names = [f"{each:.4f}".rstrip("0").rstrip(".") for each in kept]
     at = tuple(float(each) for each in names)
     return Variable(f"step@{'/'.join(names)}", "time_s", "s", "time", len(at), instants=at)
+
+
+def by_mount(mounts: Sequence[float]) -> Variable:
+    """Return the variable of what turns with the bar in the platform, otherwise with each of some mounts (from 1)."""
+    kept = [str(int(each)) for each in sorted({*mounts})]
+    return Variable(
+        f"{BY_MOUNT}{NUMBERED}{'/'.join(kept)}",
+        "bar_angle_rad",
+        "rad",
+        "angle of the bar in the platform, by set-up",
+        SEAT_SPLINES,
+        period=TURN,
+        of_forms=True,
+        beside=tuple(f"{IN_MOUNT}{each}" for each in kept),
+    )
 
 
 def periodic(column: str, period: float) -> Variable:
@@ -143,6 +162,7 @@ def following(variable: Variable, how: str, constant: float) -> Variable:
             name=f"{variable.name}_{how}@{number}",
             times=f"{variable.times}{OF_MEMORY}{how}@{number}",
             words=BY_NUMBER[how].format(variable.words, float(number)),
+            of_forms=False,
         )
     return replace(
         variable,
@@ -188,6 +208,11 @@ def two_states(variable: Variable, low: float, high: float) -> Variable:
 def is_relay(variable: Variable) -> bool:
     """Whether a variable has two states."""
     return f"{OF_MEMORY}{RELAY}@" in variable.column
+
+
+def creeps(variable: Variable) -> bool:
+    """Whether a variable is nothing but a growth with time towards an end."""
+    return not variable.column and variable.times.startswith(f"{ELAPSED}{OF_MEMORY}{SETTLING}@")
 
 
 def turns_with(variable: Variable) -> str | None:
@@ -292,6 +317,8 @@ def numbered(name: str, variables: Sequence[Variable]) -> Variable | None:
     values = [float(each) for each in numbers.split("/")]
     if kind == "step":
         return step(values)
+    if kind == BY_MOUNT:
+        return by_mount(values)
     if relay:
         whose = next((each for each in variables if each.name == of), None) or numbered(of, variables)
         is_pair = len(values) == 2 and values[0] < values[1]

@@ -15,7 +15,7 @@ from hexdbb.learned.hypothesis import Directed, Learned
 from hexdbb.learned.numbered import INSTANT_S, at_once, rate_of, transition_rate
 from hexdbb.learned.ranges import NEVER, SHORTEST, Columns, Ranges, values_of
 from hexdbb.learned.tables import Table
-from hexdbb.learned.variable import BENT, ELAPSED, SCREW_LEAD, SPLINES_MIN, is_growing
+from hexdbb.learned.variable import BENT, ELAPSED, SCREW_LEAD, SPLINES_MIN, is_growing, mount_of
 
 Floats = NDArray[np.float64]
 Weight = float | Floats
@@ -153,6 +153,8 @@ class Space:
         """Return by what a function is multiplied in every sample, shape (n,)."""
         if is_growing(times):
             return _grown(times, samples["time_s"] - self.since_s, self.span_s)
+        if (mount := mount_of(times)) is not None:
+            return (samples["mount"] == mount).astype(np.float64)
         values = np.asarray(samples[times], np.float64)
         return values if values.ndim == 1 else values[:, element]
 

@@ -25,6 +25,9 @@ AXES_OF_VECTOR = 3
 OF_MEMORY = "."
 """In the name of a column of the samples that remembers: what follows the column's own name, and says how."""
 
+IN_MOUNT = "mount@"
+"""In the name of what multiplies a function: 1 with one mount of the cup, 0 with the others; its number, from 1."""
+
 LINGERING = "lingering"
 """The same where functions of the state linger, not the state: what they do builds up and dies away."""
 
@@ -35,6 +38,11 @@ ZERO_AT_REST = frozenset({"velocity_mm_s"})
 def is_growing(times: str) -> bool:
     """Whether what multiplies a function is no column of the samples but a growth with time."""
     return times.partition(OF_MEMORY)[0] in _GROWING
+
+
+def mount_of(times: str) -> int | None:
+    """Return the index of the only mount with which a function acts; None where what multiplies it is no mount."""
+    return int(times.removeprefix(IN_MOUNT)) - 1 if times.startswith(IN_MOUNT) else None
 
 
 @dataclass(frozen=True)
@@ -158,7 +166,8 @@ class Variable:
     @property
     def needs(self) -> frozenset[str]:
         """Columns of the samples that its functions follow from."""
-        named = {"time_s" if is_growing(each) else each for each in (*self.all_times, self.column)} - {""}
+        factors = {"mount" if mount_of(each) is not None else each for each in self.all_times}
+        named = {"time_s" if is_growing(each) else each for each in (*factors, self.column)} - {""}
         remembered = {"time_s" for each in named if OF_MEMORY in each}
         return frozenset({each.partition(OF_MEMORY)[0] for each in named} | remembered)
 

@@ -89,6 +89,10 @@ def test_the_likely_cause() -> None:
             "slider 2 along its guideway: follows the fine time",
         ),
         (Learned("leg", ALL, v.YAW), "length of all legs: follows the yaw"),
+        (
+            Learned.parse("learned:cup:growth_settling@472.1"),
+            "cup: creeps towards an end within about 472 s",
+        ),
     ],
 )
 def test_a_place_and_its_variable_in_words(hypothesis: Learned, clause: str) -> None:

@@ -30,6 +30,8 @@ def readings() -> Readings:
         "angle_rad": turn % (2.0 * np.pi),
         "gauge_scale_mm": 0.3 * np.sin(turn + 0.7),
         "direction": np.where(np.arange(rows) // 120 % 2 == 0, 1.0, -1.0),
+        "bar_angle_rad": turn % (2.0 * np.pi),
+        "mount": np.zeros(rows),
     }
     circle = np.arange(rows) // 240
     groups = {

@@ -64,6 +64,7 @@ def snapped(values: np.ndarray, low: float, high: float) -> np.ndarray:
         ("learned:slider:3:drive_load", "drive_load", 3),
         ("learned:leg:5:joint_angle", "slider_joint_angle_rad", 5),
         ("learned:slider_joint:4:joint_angle", "slider_joint_angle_rad", 4),
+        ("learned:slider_joint:2:swing_angle", "swing_angle_rad", 2),
         ("learned:platform_joint:2:leg_force", "leg_force", 2),
     ],
 )

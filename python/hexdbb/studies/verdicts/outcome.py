@@ -63,6 +63,7 @@ VARIABLES = {
     "roll": ("tilt",),
     "pitch": ("tilt",),
     "time_in_sweep": ("time_in_run",),
+    "growth": ("time",),
     "time_period": ("time",),
     "position_period": ("position",),
     "direction_position_period": ("position", "direction"),

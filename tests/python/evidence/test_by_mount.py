@@ -1,0 +1,47 @@
+"""What the ball's seat does with each mount of the cup: functions of the bar's direction, as the form of an offset."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from hexdbb.evidence.learnable import by_mount_of
+from hexdbb.evidence.readings import Readings, State
+from hexdbb.evidence.signatures import signature_of
+from hexdbb.learned import Learned
+from hexdbb.studies.verdicts.cases import line_of
+from hexdbb_truth.forms.cases import case
+
+
+def with_mounts(readings: Readings, mounts: int) -> Readings:
+    columns = {**readings.state._columns, "mount": (np.arange(len(readings)) // 40 % mounts).astype(float)}
+    return replace(readings, state=State(columns, readings.state.machine))
+
+
+def test_each_mount_but_the_first_has_a_function_of_its_own(readings: Readings) -> None:
+    some = with_mounts(readings, 3)
+    (seat,) = by_mount_of(some)
+    assert seat.name == "learned:ball:bar_angle_by_mount@2/3"
+    assert Learned.parse(seat.name) == seat
+    assert not seat.is_of_time
+    space = signature_of(seat, some).space
+    design = space.design(some.state, 0)
+    second, third, every = np.split(design, 3, axis=1)
+    assert every.sum(axis=1) == pytest.approx(np.ones(len(some)))
+    for mount, part in ((1.0, second), (2.0, third)):
+        there = some.state["mount"] == mount
+        assert part[there] == pytest.approx(every[there])
+        assert not part[~there].any()
+
+
+@pytest.mark.parametrize("mounts", [1, 4])
+def test_one_mount_has_none_and_many_have_too_many(readings: Readings, mounts: int) -> None:
+    assert by_mount_of(with_mounts(readings, mounts)) == []
+
+
+def test_a_ball_whose_seat_yields_to_the_bar_is_named_for_sure() -> None:
+    """Geometry takes nearly all of where it sits: a fifth of what is left is how its seat yields with one mount."""
+    line = line_of(case("ball_eccentricity-d10-x3-judge-s49"), ())
+    assert (line["outcome"], line["grade"], line["after_adding"]) == ("right", "effect", "none")
