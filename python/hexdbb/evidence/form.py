@@ -118,13 +118,17 @@ class Forms:
             if not seen:
                 break
             group, found = max(seen, key=lambda each: each[1].found.log_evidence)
-            if best is not None and found.found.log_evidence < best.found.log_evidence + self.criteria.detect_nats:
+            if best is not None and found.found.log_evidence < self._asked_for(best.found.log_evidence):
                 break
             best, chosen = found, (*chosen, *group)
             left.remove(group)
             if found.found.size <= 0.0:
                 break
         return best
+
+    def _asked_for(self, log_evidence: float) -> float:
+        """Return the log evidence that one more group of functions must bring: of much that is found, not a trifle."""
+        return log_evidence + max(self.criteria.detect_nats, self.criteria.form_more * log_evidence)
 
     def _size(self, fitted: Fitted, known: Known) -> tuple[float, list[tuple[Learned, ...]]]:
         """Return the RMS push (mm) of an effect as fitted, and the functions of its discrepancy by variable."""
