@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from hexdbb.learned import variables as v
 from hexdbb.learned.combined import CONSTANTS_S, SPLINES, each_way, neighbour, of_drives, product, remembered
-from hexdbb.learned.numbered import AFTER, LAGGED, SETTLING, SLIPPING, along, following
+from hexdbb.learned.numbered import AFTER, LAGGED, SETTLING, SLIPPING, along, creep, following
 from hexdbb.learned.variable import LINGERING, Variable
 
 GROWTHS_S = (200.0, 800.0)
@@ -37,8 +37,8 @@ HEATED_THERE = tuple(following(v.POSITION, LINGERING, each) for each in CONSTANT
 within seconds is a function of the position."""
 LATE_WARMING = tuple(following(v.WARMING, LAGGED, each) for each in HEATS_S)
 """What is thick warms later than the thermometer."""
-CREEPING = tuple(following(v.GROWTH, SETTLING, each) for each in GROWTHS_S)
-"""A cup or a ball that was just fixed creeps into its seat."""
+CREEPING = tuple(map(creep, GROWTHS_S))
+"""A cup or a ball that was just fixed creeps into its seat, a bracket under load, or after the last crash."""
 BY_TRAVEL = "travel_direction", "direction of travel"
 BY_CIRCLE = "direction", "direction of the circle"
 POSITION_EACH_WAY = each_way(v.POSITION, *BY_TRAVEL)
@@ -177,14 +177,15 @@ OF_SLIDER_JOINT = (
     *(v.DIRECTION, v.DIRECTION_POSITION, v.TRAVEL, v.VELOCITY, v.ACCELERATION, v.CARRIAGE_LOAD, v.TIME_IN_SWEEP),
     *SCREW_WAVES,
     *HEATED,
+    *CREEPING,
     POSITION_EACH_WAY,
 )
 """Variables of one carriage that is pushed across its guideway: it tilts, floats or yields, or its nut warms it. What
 depends on the position alone is a fault of the rail, which both carriages of a guideway have."""
-OF_PLATFORM_JOINT = (v.DIRECTION, v.TRAVEL, v.FORCE, *COURSES_IN_PLATFORM)
+OF_PLATFORM_JOINT = (v.DIRECTION, v.TRAVEL, v.FORCE, *COURSES_IN_PLATFORM, *CREEPING)
 """Variables of a platform's joint that is loose, or soft, in whatever direction."""
-OF_PAIR_OF_JOINTS = (v.ANGLE, v.ANGLE_DIRECTION, v.CIRCLE_DIRECTION, v.SPEED, *COURSES_IN_PLATFORM)
-"""Variables of the platform's joint that two legs share: those that both have. No function of time is among those of
+OF_PAIR_OF_JOINTS = (v.ANGLE, v.ANGLE_DIRECTION, v.CIRCLE_DIRECTION, v.SPEED, *COURSES_IN_PLATFORM, *CREEPING)
+"""Variables of the platform's joint that two legs share: those that both have. No free function of time is among those of
 several axes here: such follow any drift, and claim nothing of a time that was left out."""
 
 

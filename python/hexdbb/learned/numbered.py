@@ -56,6 +56,7 @@ BY_MOUNT = "bar_angle_by_mount"
 SEAT_SPLINES = 8
 """Splines of a turn of the bar about a seat: a seat gives, or is out of round, by a few lobes."""
 LAGGED, RELAXING, SETTLING, AFTER, ALONG, TURNING = "lagged", "relaxing", "settling", "after", "along", "turning"
+CREEP = f"growth_{SETTLING}"
 SLIPPING = "slipping"
 RELAY = "relay"
 BY_NUMBER = {
@@ -162,7 +163,6 @@ def following(variable: Variable, how: str, constant: float) -> Variable:
             name=f"{variable.name}_{how}@{number}",
             times=f"{variable.times}{OF_MEMORY}{how}@{number}",
             words=BY_NUMBER[how].format(variable.words, float(number)),
-            of_forms=False,
         )
     return replace(
         variable,
@@ -212,7 +212,17 @@ def is_relay(variable: Variable) -> bool:
 
 def creeps(variable: Variable) -> bool:
     """Whether a variable is nothing but a growth with time towards an end."""
-    return not variable.column and variable.times.startswith(f"{ELAPSED}{OF_MEMORY}{SETTLING}@")
+    return variable.name.startswith(f"{CREEP}@")
+
+
+def creep(constant_s: float) -> Variable:
+    """Return the variable of what creeps towards an end, by the law of a first-order lag.
+
+    Evenly nothing creeps: a growth in proportion to time is a gauge's drift, of which no cup is to take the place.
+    """
+    number = f"{constant_s:.{NUMBER_DIGITS}g}"
+    words = BY_NUMBER[SETTLING].format("growth with time", float(number))
+    return Variable(f"{CREEP}@{number}", "", "", words, times=f"{ELAPSED}{OF_MEMORY}{SETTLING}@{number}")
 
 
 def turns_with(variable: Variable) -> str | None:
@@ -327,6 +337,8 @@ def numbered(name: str, variables: Sequence[Variable]) -> Variable | None:
         return None
     if kind in (f"{each}_period" for each in REPEATING):
         return periodic(kind.removesuffix("_period"), values[0])
+    if kind == CREEP:
+        return creep(values[0])
     if kind == "direction_position_period":
         return by_direction(periodic("position", values[0]))
     of, _, how = kind.rpartition("_")

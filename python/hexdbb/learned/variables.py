@@ -123,14 +123,14 @@ ROLL, PITCH, YAW = (
     for axis, name in enumerate(("roll", "pitch", "yaw"))
 )
 TILT = Variable("tilt", "tilt_rad", "rad", "tilt of the platform", 8, least=LEAST_TILT)
+DOWNHILL = replace(TILT, name="tilt_downhill", times="downhill_in_platform", is_vector=True)
+"""What is clamped loosely to the platform falls to its lower side, whichever that is. Of some circles, each with its own
+orientation, functions of roll, pitch or yaw along three axes say as much, and predict no other."""
 TIME_POSITION = Variable(
     "time_position", "sliders_mm", "mm", "position of the slider, growing", 6, times=ELAPSED, parts=("time", "position")
 )
 TIME_POSITION_BENT = replace(TIME_POSITION, name="time_position_bent", times=BENT, of_forms=True)
 """Beside what grows in proportion to time: what warms does so by less and less."""
-GROWTH = Variable("growth", "", "", "growth with time", times=ELAPSED, of_forms=True)
-"""What creeps slows down, by the law of a first-order lag (`numbered.SETTLING`), and that is a cause. Evenly it grows as a
-gauge drifts, of which no cup is to take the place."""
 POSITION_OVER_TIME = Variable(
     "position_over_time",
     "time_s",
@@ -288,8 +288,8 @@ OF_GUIDEWAY = (
     Variable("fine_position", "sliders_mm", "mm", "position of the slider", 100),
     *(DIRECTION_POSITION, VELOCITY, ACCELERATION, FORCE, TIME, TIME_POSITION, TIME_POSITION_BENT),
 )
-OF_CUP = (TIME, FINE_TIME, IN_CIRCLE, SINCE_FIXING, GROWTH)
-OF_BALL = (*OF_CUP, ROLL, PITCH, YAW)
+OF_CUP = (TIME, FINE_TIME, IN_CIRCLE, SINCE_FIXING)
+OF_BALL = (*OF_CUP, ROLL, PITCH, YAW, DOWNHILL)
 """The ball hangs on the platform; of how that is oriented the cup, on the table, knows nothing."""
 PLATFORM_JOINT_ANGLE = Variable("joint_angle", "platform_joint_angle_rad", "rad", "angle of the platform's joint", 5)
 DRAGGED_BY_ANGLE = replace(JOINT_ANGLE_DIRECTION, count=PLATFORM_JOINT_ANGLE.count, of_forms=True)

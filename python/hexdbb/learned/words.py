@@ -47,6 +47,7 @@ TIMES = {
     "course_x": ", times the part along x of the direction in which the platform moves",
     "course_y": ", times the part along y of the direction in which the platform moves",
     "course_in_platform": ", along the direction in which the platform moves",
+    "downhill_in_platform": ", towards the platform's lower side",
     "deflection_mm": ", for each mm of deflection",
     "deflection_direction": ", its sign turning over with the sense in which the gauge moves",
     "deflection_turning_mm": ", for each mm of deflection, its sign turning over with the gauge's sense",

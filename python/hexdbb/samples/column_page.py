@@ -62,6 +62,7 @@ OWN = {
     **{f"course_{axis}": ("sample", "1", f"part of `course` along {axis}") for axis in "xy"},
     "gravity_in_platform": ("axis", "1", "direction in which gravity acts, a unit vector in the platform frame"),
     "tilt_rad": ("sample", "rad", "angle of the platform's z to the vertical"),
+    "downhill_in_platform": ("axis", "1", "unit vector in its x-y plane to the platform's lower side; 0: it is level"),
     "bar_angle_rad": ("sample", "rad", "angle of the bar about the platform's z, nominal machine"),
     "bar_azimuth_rad": ("sample", "rad", "angle of the bar about the base's z, nominal machine"),
     "bar_elevation_rad": ("sample", "rad", "angle of the bar to the horizontal, nominal machine"),

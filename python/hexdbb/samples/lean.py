@@ -9,14 +9,18 @@ from hexdbb.kinematics import rotation_from_rpy
 
 Floats = NDArray[np.float64]
 
-GRAVITY, TILT = "gravity_in_platform", "tilt_rad"
-LEANS = (GRAVITY, TILT)
+GRAVITY, TILT, DOWNHILL = "gravity_in_platform", "tilt_rad", "downhill_in_platform"
+LEANS = (GRAVITY, TILT, DOWNHILL)
 LEANS_FROM = ("platform_rpy_rad",)
 """Columns that these follow from."""
+LEAST_TILT_RAD = 1e-6
+"""Tilt below which rounding sets the direction in which a platform leans: it then has none."""
 
 
 def leans(platform_rpy_rad: Floats) -> dict[str, Floats]:
-    """Return the columns `LEANS`: gravity's direction, a unit vector, and the platform's angle to the vertical.
+    """Return the columns `LEANS`: gravity's direction, a unit vector, the platform's angle to the vertical, and where it leans.
+
+    That is the unit vector in the platform's x-y plane towards its lower side; zero where it is level.
 
     Parameters
     ----------
@@ -25,4 +29,7 @@ def leans(platform_rpy_rad: Floats) -> dict[str, Floats]:
     rotation = rotation_from_rpy(platform_rpy_rad)
     down: Floats = -rotation[:, 2, :]
     aside = np.hypot(down[:, 0], down[:, 1])
-    return {GRAVITY: down, TILT: np.arctan2(aside, -down[:, 2])}
+    leans_at_all = aside > LEAST_TILT_RAD
+    downhill = np.zeros_like(down)
+    downhill[:, :2] = np.where(leans_at_all[:, None], down[:, :2] / np.where(leans_at_all, aside, 1.0)[:, None], 0.0)
+    return {GRAVITY: down, TILT: np.arctan2(aside, -down[:, 2]), DOWNHILL: downhill}

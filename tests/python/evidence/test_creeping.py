@@ -14,10 +14,10 @@ from hexdbb.studies.verdicts.cases import line_of
 from hexdbb_truth.forms.cases import case
 
 
-def test_it_is_sought_at_ball_and_cup_alone_and_even_growth_is_no_cause() -> None:
-    assert {each.place for each in further_hypotheses() if creeps(each.variable)} == {"ball", "cup"}
-    assert not any(each.variable.name == "growth" for each in hypotheses())
-    assert {each.place for each in hypotheses(of_forms=True) if each.variable.name == "growth"} == {"ball", "cup"}
+def test_it_is_sought_at_ball_cup_and_joints_alone() -> None:
+    places = {each.place for each in further_hypotheses() if creeps(each.variable)}
+    assert places == {"ball", "cup", "slider_joint", "platform_joint"}
+    assert not any(creeps(each.variable) for each in hypotheses())
 
 
 def test_its_function_is_the_step_response_of_a_lag(readings: Readings) -> None:

@@ -62,6 +62,7 @@ VARIABLES = {
     "time_in_circle": ("time",),
     "roll": ("tilt",),
     "pitch": ("tilt",),
+    "tilt_downhill": ("tilt",),
     "time_in_sweep": ("time_in_run",),
     "growth": ("time",),
     "time_period": ("time",),
