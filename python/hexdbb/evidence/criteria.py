@@ -250,10 +250,6 @@ class Criteria:
     form_limit : float
         Relative difference of form above which a catalogue effect is not called the cause: forms 20 % off, the largest
         that the calibration has, measure up to 0.42, a drive that lags in one direction alone 0.45.
-    form_more : float
-        Part of the log evidence of an effect's functions that those of one more variable must bring: of a ball that moves
-        a little with the tilt, steps from circle to circle brought thousands and functions of the bar's direction eight,
-        which other circles refuted.
     form_named : float
         The same from which what explains nearly as much (`same_kind_share`) is named beside the effect: forms 20 % off,
         the largest that the calibration has, measure up to 0.19, 0.42 where geometry takes most of the effect itself.
@@ -373,7 +369,6 @@ class Criteria:
     predicted_to: float = 1.2
     explained_min: float = 0.75
     form_limit: float = 0.42
-    form_more: float = 0.01
     form_named: float = 0.3
     form_as_seen: float = 0.235
     form_seen: float = 0.05

@@ -20,6 +20,7 @@ from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.signatures import varying
 from hexdbb.learned import ALL, Learned
+from hexdbb.learned.numbered import BY_MOUNT
 from hexdbb.learned.variables import TIME
 from hexdbb.model import Parameter
 
@@ -118,17 +119,13 @@ class Forms:
             if not seen:
                 break
             group, found = max(seen, key=lambda each: each[1].found.log_evidence)
-            if best is not None and found.found.log_evidence < self._asked_for(best.found.log_evidence):
+            if best is not None and found.found.log_evidence < best.found.log_evidence + self.criteria.detect_nats:
                 break
             best, chosen = found, (*chosen, *group)
-            left.remove(group)
+            left = [each for each in left if each is not group and not _says_it_freer(group, each)]
             if found.found.size <= 0.0:
                 break
         return best
-
-    def _asked_for(self, log_evidence: float) -> float:
-        """Return the log evidence that one more group of functions must bring: of much that is found, not a trifle."""
-        return log_evidence + max(self.criteria.detect_nats, self.criteria.form_more * log_evidence)
 
     def _size(self, fitted: Fitted, known: Known) -> tuple[float, list[tuple[Learned, ...]]]:
         """Return the RMS push (mm) of an effect as fitted, and the functions of its discrepancy by variable."""
@@ -198,6 +195,14 @@ class Forms:
                 there.setdefault(element, []).append(each)
         is_there = bool(there[parameter.element]) and str(ALL) not in there
         return [place for place in there.values() if place] if is_there else [homes]
+
+
+def _says_it_freer(chosen: tuple[Learned, ...], other: tuple[Learned, ...]) -> bool:
+    """Check whether where a ball sits was said by circle already, beside which its seat by mount says a trifle more.
+
+    Of a ball that moves a little with the tilt it was a five hundredth, which other circles refuted.
+    """
+    return bool(chosen[0].variable.instants) and other[0].variable.name.startswith(BY_MOUNT)
 
 
 def _by_variable(groups: Sequence[tuple[Learned, ...]]) -> list[tuple[Learned, ...]]:
