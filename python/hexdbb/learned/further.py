@@ -185,8 +185,8 @@ depends on the position alone is a fault of the rail, which both carriages of a 
 OF_PLATFORM_JOINT = (v.DIRECTION, v.TRAVEL, v.FORCE, *COURSES_IN_PLATFORM, *CREEPING)
 """Variables of a platform's joint that is loose, or soft, in whatever direction."""
 OF_PAIR_OF_JOINTS = (v.ANGLE, v.ANGLE_DIRECTION, v.CIRCLE_DIRECTION, v.SPEED, *COURSES_IN_PLATFORM, *CREEPING)
-"""Variables of the platform's joint that two legs share: those that both have. No free function of time is among those of
-several axes here: such follow any drift, and claim nothing of a time that was left out."""
+"""Variables of the platform's joint that two legs share: those that both have. No free function of time is among those
+of several axes here: such follow any drift, and claim nothing of a time that was left out."""
 
 
 def _of_loads(count: int, *variables: Variable) -> tuple[Variable, ...]:

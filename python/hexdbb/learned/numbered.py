@@ -9,8 +9,9 @@ changed (`joint_angle_relaxing@12`, the variable less the same lag), functions w
 its angle in degrees), a vector's part along a direction (`acceleration_along@45`, degrees in the x-y plane), and
 a function whose sign changes smoothly with the direction of motion, as friction does (`direction_position_turning@0.5`,
 transition rate in mm/s or rad/s), and two states, of which one begins where a variable rises to a number and the other
-where it falls to a lower one (`leg_force_relay@7.1/14.5`, `position_along@35_relay@-8/11`). A form's alone are functions
-of the bar's direction that are others with some mounts of the cup (`bar_angle_by_mount@2/3`, mounts from 1).
+where it falls to a lower one (`leg_force_relay@7.1/14.5`, `position_along@35_relay@-8/11`). What
+creeps is a growth towards an end (`growth_settling@470`). A form's alone are functions of the bar's direction that are
+others with some mounts of the cup (`bar_angle_by_mount@2/3`, mounts from 1).
 """
 
 from __future__ import annotations

@@ -154,7 +154,7 @@ class Space:
         if is_growing(times):
             return _grown(times, samples["time_s"] - self.since_s, self.span_s)
         if (mount := mount_of(times)) is not None:
-            return (samples["mount"] == mount).astype(np.float64)
+            return np.asarray(samples["mount"] == mount, np.float64)
         values = np.asarray(samples[times], np.float64)
         return values if values.ndim == 1 else values[:, element]
 

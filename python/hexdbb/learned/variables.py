@@ -124,8 +124,8 @@ ROLL, PITCH, YAW = (
 )
 TILT = Variable("tilt", "tilt_rad", "rad", "tilt of the platform", 8, least=LEAST_TILT)
 DOWNHILL = replace(TILT, name="tilt_downhill", times="downhill_in_platform", is_vector=True)
-"""What is clamped loosely to the platform falls to its lower side, whichever that is. Of some circles, each with its own
-orientation, functions of roll, pitch or yaw along three axes say as much, and predict no other."""
+"""What is clamped loosely to the platform falls to its lower side, whichever that is. Of some circles, each with its
+own orientation, functions of roll, pitch or yaw along three axes say as much, and predict no other."""
 TIME_POSITION = Variable(
     "time_position", "sliders_mm", "mm", "position of the slider, growing", 6, times=ELAPSED, parts=("time", "position")
 )

@@ -18,9 +18,9 @@ LEAST_TILT_RAD = 1e-6
 
 
 def leans(platform_rpy_rad: Floats) -> dict[str, Floats]:
-    """Return the columns `LEANS`: gravity's direction, a unit vector, the platform's angle to the vertical, and where it leans.
+    """Return the columns `LEANS`: gravity's direction, a unit vector, the angle to the vertical, and downhill.
 
-    That is the unit vector in the platform's x-y plane towards its lower side; zero where it is level.
+    The last is the unit vector in the platform's x-y plane towards its lower side; zero where it is level.
 
     Parameters
     ----------

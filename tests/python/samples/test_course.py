@@ -47,4 +47,6 @@ def test_gravity_acts_along_the_vertical_in_the_platform() -> None:
     down = np.array([[0.0, 0.0, -1.0], [0.0, -np.sin(0.2), -np.cos(0.2)], [np.sin(0.3), 0.0, -np.cos(0.3)]])
     assert found["gravity_in_platform"] == pytest.approx(down)
     assert found["tilt_rad"] == pytest.approx([0.0, 0.2, 0.3])
-    assert found["downhill_in_platform"] == pytest.approx(np.array([[0.0, 0.0, 0.0], [0.0, -1.0, 0.0], [1.0, 0.0, 0.0]]))
+    assert found["downhill_in_platform"] == pytest.approx(
+        np.array([[0.0, 0.0, 0.0], [0.0, -1.0, 0.0], [1.0, 0.0, 0.0]])
+    )
