@@ -19,9 +19,6 @@ MOST_CIRCLES = 24
 """Beginnings of circles, from which on what sits otherwise in each is left to functions of time: these have no more
 values (`homes.MOST_COLUMNS`)."""
 
-MOST_MOUNTS = 3
-"""Mounts of the cup, each with functions of its own, up to which they have no more splines than a form may have
-(`homes.MOST_COLUMNS`)."""
 SAME_ANGLE = 1e-3
 """Mean of 1 - cos(difference) below which two angles count as the same variable: 2.6 degrees RMS, a sixth of the width
 of a spline over them."""
@@ -57,14 +54,15 @@ def by_circle(readings: Readings) -> list[Learned]:
 
 
 def by_mount_of(readings: Readings) -> list[Learned]:
-    """Return what lets the ball's seat give way to the bar, or be out of round, otherwise in every set-up.
+    """Return what lets the ball's seat give way to the bar, or be out of round, otherwise with each mount of the cup.
 
-    Of a ball that sits otherwise geometry takes nearly all, and then most of what is seen is how its seat differs.
+    Of a ball that sits otherwise geometry takes nearly all, and then most of what is seen is how its seat differs. Each
+    mount has a function of its own: one of several would say of a ball where it sits with the others. Of two mounts one
+    is all but the other.
     """
-    mounts = np.unique(readings.state["mount"])
-    if not 1 < len(mounts) <= MOST_MOUNTS:
-        return []
-    return list(varying((Learned("ball", ALL, by_mount((1 + mounts[1:]).tolist())),), readings))
+    mounts = 1 + np.unique(readings.state["mount"])
+    other = mounts if len(mounts) > 2 else mounts[1:]
+    return list(varying((Learned("ball", ALL, by_mount(float(each))) for each in other), readings))
 
 
 def _of_forms(readings: Readings) -> list[Learned]:

@@ -73,7 +73,17 @@ def rivals_of(search: Search, node: Node, cause: Hypothesis) -> Rivals:
     if isinstance(cause, Known):
         others += rivals_elsewhere(search, node, cause, alike)
         others += of_one_state(search, node, cause)
+        others = [each for each in others if each not in _the_same_elsewhere(node, cause)]
     return Rivals(tuple(dict.fromkeys(others)), tuple(dict.fromkeys(alike)), margin)
+
+
+def _the_same_elsewhere(node: Node, cause: Known) -> set[str]:
+    """Return the same effect at the set's other elements: they are causes themselves, none is another explanation.
+
+    By its form, which follows every circle, a ball that sits otherwise in one of three set-ups says what both do.
+    """
+    known = (each for each in node.hypotheses if isinstance(each, Known))
+    return {each.name for each in known if each.effect == cause.effect and each != cause}
 
 
 def _has_it_elsewhere(other: Node, node: Node, cause: Hypothesis) -> bool:

@@ -11,7 +11,7 @@ a function whose sign changes smoothly with the direction of motion, as friction
 transition rate in mm/s or rad/s), and two states, of which one begins where a variable rises to a number and the other
 where it falls to a lower one (`leg_force_relay@7.1/14.5`, `position_along@35_relay@-8/11`). What
 creeps is a growth towards an end (`growth_settling@470`). A form's alone are functions of the bar's direction that are
-others with some mounts of the cup (`bar_angle_by_mount@2/3`, mounts from 1).
+others with one mount of the cup (`bar_angle_by_mount@2`).
 """
 
 from __future__ import annotations
@@ -103,18 +103,17 @@ def step(instants_s: Sequence[float]) -> Variable:
     return Variable(f"step@{'/'.join(names)}", "time_s", "s", "time", len(at), instants=at)
 
 
-def by_mount(mounts: Sequence[float]) -> Variable:
-    """Return the variable of what turns with the bar in the platform, otherwise with each of some mounts (from 1)."""
-    kept = [str(int(each)) for each in sorted({*mounts})]
+def by_mount(mount: float) -> Variable:
+    """Return the variable of what turns with the bar in the platform, otherwise with one mount of the cup (from 1)."""
     return Variable(
-        f"{BY_MOUNT}{NUMBERED}{'/'.join(kept)}",
+        f"{BY_MOUNT}{NUMBERED}{mount:.0f}",
         "bar_angle_rad",
         "rad",
-        "angle of the bar in the platform, by set-up",
+        f"angle of the bar in the platform, otherwise in set-up {mount:.0f}",
         SEAT_SPLINES,
         period=TURN,
         of_forms=True,
-        beside=tuple(f"{IN_MOUNT}{each}" for each in kept),
+        beside=(f"{IN_MOUNT}{mount:.0f}",),
     )
 
 
@@ -328,8 +327,6 @@ def numbered(name: str, variables: Sequence[Variable]) -> Variable | None:
     values = [float(each) for each in numbers.split("/")]
     if kind == "step":
         return step(values)
-    if kind == BY_MOUNT:
-        return by_mount(values)
     if relay:
         whose = next((each for each in variables if each.name == of), None) or numbered(of, variables)
         is_pair = len(values) == 2 and values[0] < values[1]
@@ -338,6 +335,8 @@ def numbered(name: str, variables: Sequence[Variable]) -> Variable | None:
         return None
     if kind in (f"{each}_period" for each in REPEATING):
         return periodic(kind.removesuffix("_period"), values[0])
+    if kind == BY_MOUNT:
+        return by_mount(values[0])
     if kind == CREEP:
         return creep(values[0])
     if kind == "direction_position_period":

@@ -20,25 +20,24 @@ def with_mounts(readings: Readings, mounts: int) -> Readings:
     return replace(readings, state=State(columns, readings.state.machine))
 
 
-def test_each_mount_but_the_first_has_a_function_of_its_own(readings: Readings) -> None:
+def test_a_mount_has_a_function_of_its_own(readings: Readings) -> None:
     some = with_mounts(readings, 3)
-    (seat,) = by_mount_of(some)
-    assert seat.name == "learned:ball:bar_angle_by_mount@2/3"
+    seats = by_mount_of(some)
+    assert [each.name for each in seats] == [f"learned:ball:bar_angle_by_mount@{each}" for each in (1, 2, 3)]
+    seat = seats[1]
     assert Learned.parse(seat.name) == seat
     assert not seat.is_of_time
-    space = signature_of(seat, some).space
-    design = space.design(some.state, 0)
-    second, third, every = np.split(design, 3, axis=1)
+    design = signature_of(seat, some).space.design(some.state, 0)
+    own, every = np.split(design, 2, axis=1)
+    there = some.state["mount"] == 1.0
     assert every.sum(axis=1) == pytest.approx(np.ones(len(some)))
-    for mount, part in ((1.0, second), (2.0, third)):
-        there = some.state["mount"] == mount
-        assert part[there] == pytest.approx(every[there])
-        assert not part[~there].any()
+    assert own[there] == pytest.approx(every[there])
+    assert not own[~there].any()
 
 
-@pytest.mark.parametrize("mounts", [1, 4])
-def test_one_mount_has_none_and_many_have_too_many(readings: Readings, mounts: int) -> None:
-    assert by_mount_of(with_mounts(readings, mounts)) == []
+@pytest.mark.parametrize(("mounts", "count"), [(1, 0), (2, 1), (4, 4)])
+def test_of_two_mounts_one_is_all_but_the_other(readings: Readings, mounts: int, count: int) -> None:
+    assert len(by_mount_of(with_mounts(readings, mounts))) == count
 
 
 def test_a_ball_whose_seat_yields_to_the_bar_is_named_for_sure() -> None:
