@@ -33,7 +33,7 @@ def function_clause(term: Term) -> str:
     clear = [k for k, curve in enumerate(curves) if describe(curve, space.period).kind != "nothing"]
     if creeps(space.hypothesis.variable):
         size_um = UM_PER_MM * float(np.linalg.norm([curves[k].value_mm[0] for k in clear]))
-        return place_clause(space.hypothesis).replace("creeps", f"creeps by {size_um:.3g} µm")
+        return _creep_clause(space.hypothesis, f" by {size_um:.3g} µm")
     if NUMBERED in space.hypothesis.variable.name:  # instants or a period say more than the function's form
         return place_clause(space.hypothesis)
     return ", ".join(sentence(space.hypothesis, curves[k], space.period, k) for k in clear or [0])
@@ -47,13 +47,18 @@ def place_clause(hypothesis: Learned) -> str:
     if is_relay(variable):
         return f"{place}: in {variable.words}"
     if creeps(variable):
-        return f"{place}: creeps towards an end within about {number_of(variable):.3g} s"
+        return _creep_clause(hypothesis)
     if NUMBERED in variable.name:
         repeats = f"repeats every {variable.period:.4g} {variable.unit}"
         return f"{place}: {repeats if has_chosen_period(variable) else f'follows the {variable.words}'}"
     if not variable.column and not variable.times:
         return f"{place}: a constant"
     return f"{place}: follows the {variable.name.replace('_', ' ')}"
+
+
+def _creep_clause(hypothesis: Learned, size: str = "") -> str:
+    constant_s = number_of(hypothesis.variable)
+    return f"{whole_place_words(hypothesis)}: creeps{size} towards an end within about {constant_s:.3g} s"
 
 
 def unseen_words(heldout: Mapping[str, HeldOut], share: float) -> str:

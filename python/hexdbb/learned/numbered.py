@@ -10,8 +10,8 @@ its angle in degrees), a vector's part along a direction (`acceleration_along@45
 a function whose sign changes smoothly with the direction of motion, as friction does (`direction_position_turning@0.5`,
 transition rate in mm/s or rad/s), and two states, of which one begins where a variable rises to a number and the other
 where it falls to a lower one (`leg_force_relay@7.1/14.5`, `position_along@35_relay@-8/11`). What
-creeps is a growth towards an end (`growth_settling@470`). A form's alone are functions of the bar's direction that are
-others with one mount of the cup (`bar_angle_by_mount@2`).
+creeps is a growth towards an end (`growth_settling@470`). Functions of the bar's direction that are others in one
+set-up (`bar_angle_by_mount@2`) describe forms only.
 """
 
 from __future__ import annotations
@@ -54,10 +54,11 @@ such a bend was taken for a leg's swing."""
 GRAVITY_SPLINES = 8
 """Splines over gravity's share in the platform: as many as over its roll (`variables.ROLL`)."""
 BY_MOUNT = "bar_angle_by_mount"
-SEAT_SPLINES = 8
-"""Splines of a turn of the bar about a seat: a seat gives, or is out of round, by a few lobes."""
+"""What a form's functions of the bar's direction are called: a seat yields, or is out of round, by as few lobes as a
+period has harmonics (`PERIOD_SPLINES`)."""
 LAGGED, RELAXING, SETTLING, AFTER, ALONG, TURNING = "lagged", "relaxing", "settling", "after", "along", "turning"
 CREEP = f"growth_{SETTLING}"
+"""What a growth towards an end is called that multiplies no function of another state."""
 SLIPPING = "slipping"
 RELAY = "relay"
 BY_NUMBER = {
@@ -110,7 +111,7 @@ def by_mount(mount: float) -> Variable:
         "bar_angle_rad",
         "rad",
         f"angle of the bar in the platform, otherwise in set-up {mount:.0f}",
-        SEAT_SPLINES,
+        PERIOD_SPLINES,
         period=TURN,
         of_forms=True,
         beside=(f"{IN_MOUNT}{mount:.0f}",),

@@ -13,8 +13,9 @@ GRAVITY, TILT, DOWNHILL = "gravity_in_platform", "tilt_rad", "downhill_in_platfo
 LEANS = (GRAVITY, TILT, DOWNHILL)
 LEANS_FROM = ("platform_rpy_rad",)
 """Columns that these follow from."""
-LEAST_TILT_RAD = 1e-6
-"""Tilt below which rounding sets the direction in which a platform leans: it then has none."""
+LEAST_TILT_RAD = 1e-3
+"""Tilt below which a platform counts as level and leans in no direction: following errors of a tenth of a millimetre
+tilt it by as much, and would set the direction."""
 
 
 def leans(platform_rpy_rad: Floats) -> dict[str, Floats]:
