@@ -13,6 +13,11 @@ namespace {
 constexpr double kMedianToSigma = 1.4826;
 // Standard deviation of a value minus the mean of its two neighbours, over that of one value: the root of 1 + 1/4 + 1/4.
 const double kOfDifference = std::sqrt(1.5);
+// The same of a value minus one told by a line through two behind it: the root of 1 + 4 + 1.
+const double kOfExtrapolation = std::sqrt(6.0);
+
+// Readings of a capture, all but one of which tell what to expect at its end (`extrapolated`).
+constexpr Eigen::Index kFewest = 6;
 
 void require_length(const char* what, Eigen::Index length, Eigen::Index expected) {
   if (length == expected) return;
@@ -51,6 +56,23 @@ double median_near(const Eigen::VectorXd& values, Eigen::Index place, int neighb
     near[step + neighbours] = values[std::clamp<Eigen::Index>(place + step, 0, values.size() - 1)];
   }
   return median(std::move(near));
+}
+
+/// Return what a line through two values behind the first tells of that: the median of the nearest three such lines, so
+/// that neither of the two counts for much. `values` has seven rows at least.
+double extrapolated(const Eigen::VectorXd& values) {
+  return median(Eigen::Vector3d(2.0 * values[1] - values[2], 2.0 * values[2] - values[4], 2.0 * values[3] - values[6]));
+}
+
+/// A value's distance from what its neighbours lead to expect, over the standard deviation of one value.
+struct Expected {
+  double off;
+  bool is_alone;
+};
+
+Expected compare_end(const Eigen::VectorXd& from_end, double usual, double alone) {
+  const double off = (from_end[0] - extrapolated(from_end)) / (kOfExtrapolation * usual);
+  return {off, std::abs(off) > alone};
 }
 
 }  // namespace
@@ -107,7 +129,7 @@ Neighbours compare_with_neighbours(const Numbers& angle_rad, const Numbers& valu
   Neighbours out{Eigen::VectorXd::Zero(values.size()), decltype(Neighbours::alone)::Constant(values.size(), false)};
   for (const Rows& rows : captures) {
     const Eigen::Index inside = rows.size() - 2;
-    if (rows.size() <= 2 * test.neighbours || !is_dense(angle_rad(rows), test.dense_rad)) continue;
+    if (rows.size() <= std::max<Eigen::Index>(2 * test.neighbours, kFewest) || !is_dense(angle_rad(rows), test.dense_rad)) continue;
     const Eigen::VectorXd own = values(rows);
     Eigen::VectorXd apart = Eigen::VectorXd::Zero(rows.size());
     apart.segment(1, inside) = own.segment(1, inside) - 0.5 * (own.head(inside) + own.tail(inside));
@@ -116,8 +138,13 @@ Neighbours compare_with_neighbours(const Numbers& angle_rad, const Numbers& valu
     for (Eigen::Index row = 0; row < rows.size(); ++row) {
       out.off[rows[row]] = apart[row];
       if (!(std::abs(apart[row]) > test.doubtful)) continue;
-      out.alone[rows[row]] = std::abs(own[row] - median_near(own, row, test.neighbours)) > test.alone * usual;
+      // The neighbours of a reading that stands alone are far from their middle as well, but not from the median.
+      out.off[rows[row]] = (own[row] - median_near(own, row, test.neighbours)) / usual;
+      out.alone[rows[row]] = std::abs(out.off[rows[row]]) > test.alone;
     }
+    const Expected first = compare_end(own, usual, test.alone), last = compare_end(own.reverse(), usual, test.alone);
+    out.off[rows[0]] = first.off, out.alone[rows[0]] = first.is_alone;
+    out.off[rows[inside + 1]] = last.off, out.alone[rows[inside + 1]] = last.is_alone;
   }
   return out;
 }

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.diagnosis.noise import Noise, lap_differences, noise_of, residual_repeats_to, stated_noise
+from hexdbb.diagnosis.noise import Noise, lap_differences, less_nominal_mm, noise_of, residual_repeats_to, stated_noise
 from hexdbb.diagnosis.whiteness import is_white
 from hexdbb.samples import Samples
 
@@ -75,9 +75,20 @@ def judging_noise(samples: Samples, estimated: Noise | None = None) -> JudgingNo
         f"laps repeat to {repeated.sigma_mm * 1e3:.2f} µm only,"
         f" the gauge is stated to have {stated.sigma_mm * 1e3:.2f} µm"
     )
-    if is_white(list(lap_differences(samples))):
+    if _is_white(samples):
         return JudgingNoise(repeated, f"{sizes}: it is noisier than stated")
     return JudgingNoise(stated, f"{sizes}: something changes from lap to lap", is_steady=False)
+
+
+def _is_white(samples: Samples) -> bool:
+    """Check that what differs from lap to lap is white noise at every feed."""
+    left_mm = less_nominal_mm(samples)
+    series, feeds = [], []
+    for rows in samples.sweeps():
+        own = list(lap_differences(samples, left_mm, [rows]))
+        series += own
+        feeds += [float(samples["feed_mm_s"][rows[0]])] * len(own)
+    return is_white(series, feeds)
 
 
 def _beside_neighbours(repeated: Noise) -> JudgingNoise:

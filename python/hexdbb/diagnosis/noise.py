@@ -13,7 +13,7 @@ removes from normal noise is restored. Noise may have longer tails than normal n
 angles about a jump appear to have them: the relative excess of the standard deviation within `TAIL` is an uncertainty
 of the estimate. Nor do the first parts of laps count where their differences are far larger than the usual: what
 settles after a start is in the first lap alone, and is no noise. A median would be robust too, but the readings are
-rounded, so that it could only be one of few values.
+rounded, so that it could only be one of few values. What rounding is the same in all laps is added (`rounding.py`).
 """
 
 from __future__ import annotations
@@ -28,11 +28,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
+from hexdbb.diagnosis.rounding import with_rounding
 from hexdbb.model import new_model
 from hexdbb.plan import LEAST_NOISE_MM
 from hexdbb.samples import Samples, predict
 
 Floats = NDArray[np.float64]
+Rows = NDArray[np.intp]
 
 MIN_REPEATS = 100
 """Repeated readings below which laps are not used: a standard deviation from n differences scatters by 1 / sqrt(2 n),
@@ -84,7 +86,10 @@ def noise_of(samples: Samples) -> Noise:
     repeated = list(lap_differences(samples))
     if sum(map(len, repeated)) >= MIN_REPEATS:
         found = _estimate_from(_steady(repeated), "repeated laps")
-        return found if stated_noise(samples) is not None else replace(found, rough_mm=_roughness(repeated))
+        found = replace(found, sigma_mm=with_rounding(samples, found.sigma_mm))
+        if stated_noise(samples) is not None:
+            return found
+        return replace(found, rough_mm=with_rounding(samples, _roughness(repeated)))
     stated = stated_noise(samples)
     if stated is not None:
         return stated
@@ -99,7 +104,7 @@ def noise_of(samples: Samples) -> Noise:
 def residual_repeats_to(samples: Samples, residual_mm: Floats) -> float:
     """Return the noise (mm) of what a model leaves, from repeated laps; infinite where none are repeated."""
     repeated = list(lap_differences(samples, residual_mm))
-    return _robust_sigma(_steady(repeated)) if repeated else float("inf")
+    return with_rounding(samples, _robust_sigma(_steady(repeated))) if repeated else float("inf")
 
 
 def stated_noise(samples: Samples) -> Noise | None:
@@ -162,7 +167,9 @@ def _within(size: Floats, most: float, sigma: float) -> float:
     return float(np.sqrt(np.mean(kept**2) / variance)) if len(kept) else 0.0
 
 
-def lap_differences(samples: Samples, residual_mm: Floats | None = None) -> Iterator[Floats]:
+def lap_differences(
+    samples: Samples, residual_mm: Floats | None = None, sweeps: Sequence[Rows] | None = None
+) -> Iterator[Floats]:
     """Yield the differences of consecutive laps at one angle, in units of one reading's noise.
 
     Parameters
@@ -170,10 +177,12 @@ def lap_differences(samples: Samples, residual_mm: Floats | None = None) -> Iter
     samples : Samples
     residual_mm : ndarray, shape (n,), optional
         What a model leaves of their readings; what a machine without errors leaves where not given.
+    sweeps : sequence of ndarray of int, optional
+        Rows of the sweeps that are asked for; all where not given.
     """
     whole_mm = less_nominal_mm(samples) if residual_mm is None else residual_mm
     angle_rad, lap = samples["angle_rad"], samples["lap"]
-    sweeps = samples.sweeps()
+    sweeps = samples.sweeps() if sweeps is None else sweeps
     yield from _core.lap_differences(angle_rad, lap, whole_mm, sweeps, [_highest(len(rows)) for rows in sweeps])
 
 
