@@ -2,11 +2,13 @@
 
 A reading stands alone where what a model leaves differs from the median of its neighbours by far more than noise, and
 than such differences are elsewhere on its sweep. An error of the machine has neighbours, or comes again at the same
-angle of the same circle in another lap or direction; where there is one lap only, it may show once, at a drive's
-reversal. Where many readings stand alone they are the noise, and none is a glitch.
+angle of the same circle in another lap or direction, more often than glitches meet by chance; where there is one lap
+only, it may show once, at a drive's reversal. Where many readings stand alone they are the noise, and none is a glitch.
 """
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,6 +42,9 @@ REVERSAL_S = 0.2
 JUMP = 1.5
 """Distance from the median over the jump of the prediction at a reversal up to which a reading was taken meanwhile: it
 lies between where it was and where it will be, but for noise, and what the median takes of either."""
+CHANCE = 0.05
+"""Probability of as many meetings of two glitches in two laps, below which they are the machine's: one meeting among few
+glitches is."""
 HOPELESS = 0.1
 """Part of the readings from which on none is looked at twice."""
 MOST = 0.02
@@ -73,8 +78,12 @@ def glitches_in(samples: Samples, residual_mm: Floats, noise_mm: float) -> Mask:
     )
     if alone.mean() > HOPELESS:
         return np.zeros_like(alone)
-    for row in np.flatnonzero(alone):
-        alone[row] = not (_is_of_machine(samples, off, row) or _is_late_jump(samples, residual_mm, row))
+    others = [row for row in np.flatnonzero(alone) if not _is_elsewhere_too(samples, residual_mm, off, row)]
+    alone[:] = False
+    alone[others] = True
+    again = [_again_in_another_lap(samples, off, row) for row in others]
+    if not _is_by_chance(again, float(np.mean(np.abs(off) > AGAIN))):
+        alone[[row for row, (times, _) in zip(others, again, strict=True) if times]] = False
     return alone if alone.mean() < MOST else np.zeros_like(alone)
 
 
@@ -107,25 +116,63 @@ def _from_middle(values: Floats) -> Floats:
     return apart
 
 
-def _is_of_machine(samples: Samples, off: Floats, row: np.intp) -> bool:
-    """Check whether a reading is off to the same side at its place in another lap, or in most other sweeps there.
+def _is_elsewhere_too(samples: Samples, residual_mm: Floats, off: Floats, row: np.intp) -> bool:
+    """Check whether a reading is the machine's for another reason than that it comes again in another lap.
 
-    Near a reversal, where the other direction says nothing, that takes another lap; without one it may be the machine.
+    It is off to the same side in most other sweeps of the place, or at most sweeps' ends, or is a late jump; or it is
+    near a reversal, where the other direction says nothing, and no other lap tells.
     """
-    angle_rad, sweep = samples["angle_rad"], samples["sweep"]
-    apart_rad = np.abs(_wrapped(angle_rad - angle_rad[row]))
+    near, other_lap = _near(samples, row), _in_another_lap(samples, row)
+    sweep = samples["sweep"]
     other_sweep = (samples["set_up"] == samples["set_up"][row]) & (sweep != sweep[row])
-    other_lap = (sweep == sweep[row]) & (samples["lap"] != samples["lap"][row])
+    others, also = (np.unique(sweep[near & other_sweep & rows]) for rows in (True, _alike(off, row)))
+    if len(also) > 0.5 * len(others) or _is_at_most_ends(samples, off, row):
+        return True
+    is_repeated = np.any(other_lap & near & (_apart_rad(samples, row) <= SAME_PLACE_RAD))
+    return (not is_repeated and _is_at_reversal(samples, row)) or _is_late_jump(samples, residual_mm, row)
+
+
+def _again_in_another_lap(samples: Samples, off: Floats, row: np.intp) -> tuple[bool, int]:
+    """Return whether a reading is off to the same side at its place in another lap, and how many readings are there."""
+    there = _near(samples, row) & _in_another_lap(samples, row)
+    return bool(np.any(there & _alike(off, row))), int(there.sum())
+
+
+def _is_by_chance(again: Sequence[tuple[bool, int]], share: float) -> bool:
+    """Check that so many readings come again by chance, where a share of all readings is off to either side.
+
+    Of two that meet each comes again: pairs are counted, which are of Poisson's distribution.
+    """
+    met = sum(each for each, _ in again) / 2.0
+    expected = sum(1.0 - (1.0 - 0.5 * share) ** count for _, count in again) / 2.0
+    return met == 0.0 or 1.0 - _core.chi_square_tail(max(round(2.0 * met), 1), 2.0 * expected) > CHANCE
+
+
+def _near(samples: Samples, row: np.intp) -> Mask:
+    """Return the readings at the place of one: within a degree, or as near as neighbours are."""
+    angle_rad = samples["angle_rad"]
     last = min(int(row), len(angle_rad) - 2)
-    near = apart_rad <= max(SAME_PLACE_RAD, abs(_wrapped(angle_rad[last + 1] - angle_rad[last])))
-    again = off * np.sign(off[row]) > max(AGAIN, ALIKE * abs(off[row]))
-    others = np.unique(sweep[near & other_sweep])
-    if np.any(again & near & other_lap) or len(np.unique(sweep[near & other_sweep & again])) > 0.5 * len(others):
-        return True
-    if _is_at_most_ends(samples, off, row):
-        return True
-    is_repeated = np.any(other_lap & (apart_rad <= SAME_PLACE_RAD))
-    return not is_repeated and _is_at_reversal(samples, row)
+    step_rad = abs(float(_wrapped(angle_rad[last + 1] - angle_rad[last])))
+    near: Mask = _apart_rad(samples, row) <= max(SAME_PLACE_RAD, step_rad)
+    return near
+
+
+def _apart_rad(samples: Samples, row: np.intp) -> Floats:
+    angle_rad = samples["angle_rad"]
+    apart: Floats = np.abs(_wrapped(angle_rad - angle_rad[row]))
+    return apart
+
+
+def _in_another_lap(samples: Samples, row: np.intp) -> Mask:
+    sweep, lap = samples["sweep"], samples["lap"]
+    another: Mask = (sweep == sweep[row]) & (lap != lap[row])
+    return another
+
+
+def _alike(off: Floats, row: np.intp) -> Mask:
+    """Return the readings that are off to the same side as one, by as much as counts."""
+    alike: Mask = off * np.sign(off[row]) > max(AGAIN, ALIKE * abs(off[row]))
+    return alike
 
 
 def _is_at_most_ends(samples: Samples, off: Floats, row: np.intp) -> bool:
