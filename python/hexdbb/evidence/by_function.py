@@ -8,7 +8,7 @@ from hexdbb.evidence.place import at_its_place
 from hexdbb.evidence.readings import ARC
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.settling import explains_nearly, predicts
+from hexdbb.evidence.settling import explained_by_formulas, explains_nearly, predicts
 from hexdbb.evidence.sure import is_for_sure
 from hexdbb.evidence.trial import Member
 from hexdbb.learned import Learned
@@ -25,17 +25,40 @@ def or_by_functions(search: Search, node: Node) -> Node:
     ----------
     search : Search
     node : Node
-        Returned unchanged where it is for sure, or of one cause, or no function at the effect's place that was tried
+        Returned unchanged where it is for sure, or no function at the effect's place that was tried
         beside the others explains nearly as much and errs less on what was left out.
     """
-    # One alone keeps its name: of a bow of which geometry takes nearly all only its form is seen, beside nothing that
-    # the form could have borrowed.
-    if len(node.members) == 1 or is_for_sure(search, node):
+    if is_for_sure(search, node):
         return node
+    if len(node.members) == 1:
+        return _or_elsewhere(search, node)
     for member in node.members:
         if _is_by_form(search, node, member):
             node = max(_instead(search, node, member), key=lambda each: each.score, default=node)
     return node
+
+
+def _or_elsewhere(search: Search, node: Node) -> Node:
+    """Return a function elsewhere in place of one effect whose formula explains hardly anything.
+
+    At its own place the effect keeps its name: of a bow of which geometry takes nearly all only its form is seen, beside
+    nothing that the form could have borrowed. Elsewhere: a ball with lobes was one that sits 2.6 mm otherwise in one
+    set-up, of which geometry took all but the lobes.
+    """
+    (member,) = node.members
+    cause, form = member.hypothesis, node.trial.forms[0]
+    if not isinstance(cause, Known) or form is None or not form.columns:
+        return node
+    if explained_by_formulas(search, node) >= search.criteria.formula_names:
+        return node
+    own = search.kin.get(cause.name, set())
+    found = []
+    for each in search.nodes:
+        is_other = len(each.members) == 1 and not each.is_known and each.trial.names[0] not in own
+        is_tested = is_other and not (each.trial.refused or each.trial.is_of_time)
+        if is_tested and _says_as_much(search, each, node) and _predicts_better(search, each, node, member):
+            found.append(each)
+    return max(found, key=lambda each: each.score, default=node)
 
 
 def _is_by_form(search: Search, node: Node, member: Member) -> bool:

@@ -18,6 +18,7 @@ from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.readings import Linear, Readings
 from hexdbb.evidence.thinned import Thinned
 from hexdbb.learned import ALL, PAIRS, Learned, periodic, step
+from hexdbb.learned.places import LEVERS
 from hexdbb.machine import MachineFile
 from hexdbb.predictors.periods import COARSE, FINE, LEAST_TURNS, Grid, strongest_frequency
 
@@ -78,6 +79,11 @@ def _answers(readings: Readings, place: str, element: int) -> Floats:
     at = Learned(place, element, step([0.0]))
     machine = readings.state.machine
     axes = [at.pushes(axis, machine) for axis in range(at.components)]
+    if place in LEVERS:
+        shares = [readings.state[each] for each in LEVERS[place]]
+        every = [[(readings.answer(ports), column) for column, ports in axis] for axis in axes]
+        of_axes = zip(shares, every, strict=True)
+        return np.column_stack([sum(share[:, column] * each for each, column in axis) for share, axis in of_axes])
     # Both carriages of a guideway shift at once.
     return np.column_stack([readings.answer([push for _, ports in each for push in ports]) for each in axes])
 
@@ -273,9 +279,10 @@ def periods(
     gaps = np.diff(np.unique(time_s))
     if len(gaps) and "time_s" not in readings.state.unmeasured:
         highest = 0.5 / float(np.median(gaps))
-        # One carriage that is pushed about across its guideway by a clamp, or a pulse of oil, moves alone.
+        # One carriage that is pushed about across its guideway by a clamp, or a pulse of oil, moves alone. A pump or a
+        # counterbalance pulls at the platform, and legs grow and shrink alike in a draught.
         carriages = (("slider_joint", element) for element in range(1, 7))
-        for place, element in (*_shifting(), *carriages):
+        for place, element in (*_shifting(), *carriages, ("load", ALL), ("leg", ALL)):
             if place != "ball" and is_asked_for(Learned(place, element, periodic("time", 1.0))):
                 weighted = linear.residual[:, None] * _answers(readings, place, element)
                 yield from _period(place, element, "time", weighted, time_s, highest)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from hexdbb.learned import variables as v
-from hexdbb.learned.combined import CONSTANTS_S, SPLINES, each_way, neighbour, of_drives, product, remembered
+from hexdbb.learned.combined import CONSTANTS_S, SPLINES, each_way, neighbour, of_drives, product, remembered, slipping
 from hexdbb.learned.numbered import AFTER, LAGGED, SETTLING, SLIPPING, along, creep, following
 from hexdbb.learned.variable import LINGERING, Variable
 
@@ -244,6 +244,7 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
         *PRODUCTS_OF_LEG,
         *NEIGHBOURS,
         *remembered(v.FORCE, v.JOINT_ANGLE),
+        *(*slipping(v.SWING_ANGLE), *slipping(v.PLATFORM_ANGLE)),  # dry friction in either joint strains the leg
         *SETTLING_POSITION,
         *SINCE_START,
         *HEATED,
