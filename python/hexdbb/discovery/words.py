@@ -34,6 +34,9 @@ def function_clause(term: Term) -> str:
     if creeps(space.hypothesis.variable):
         size_um = UM_PER_MM * float(np.linalg.norm([curves[k].value_mm[0] for k in clear]))
         return _creep_clause(space.hypothesis, f" by {size_um:.3g} µm")
+    if space.hypothesis.variable.is_anew:
+        size_um = UM_PER_MM * float(np.linalg.norm([np.ptp(curves[k].value_mm) for k in clear]))
+        return f"{place_clause(space.hypothesis)}, within {size_um:.3g} µm"
     if NUMBERED in space.hypothesis.variable.name:  # instants or a period say more than the function's form
         return place_clause(space.hypothesis)
     return ", ".join(sentence(space.hypothesis, curves[k], space.period, k) for k in clear or [0])
@@ -42,6 +45,8 @@ def function_clause(term: Term) -> str:
 def place_clause(hypothesis: Learned) -> str:
     """Return where a learned hypothesis acts and what it follows: instants, a period, or the variable's name."""
     place, variable = whole_place_words(hypothesis), hypothesis.variable
+    if variable.is_anew:
+        return f"{place}: is otherwise with each sweep"
     if variable.instants:
         return f"{place}: shifts at {joined([f'{each:.0f} s' for each in variable.instants])}"
     if is_relay(variable):

@@ -23,6 +23,10 @@ MOST_AXES = 2
 """Axes along which functions push that may be finer at once: of one carriage; along three, fine functions explain
 whatever there is."""
 
+MOST_ANEW_MM = 0.1
+"""Largest size of what is another with each sweep: who mounts a cup sees when it shifts by more each time. Arcs hardly
+hold the three axes of a cup: steps of two millimetres, which nearly cancelled, said what a bar did that cooled."""
+
 
 @dataclass(frozen=True)
 class Known:
@@ -138,7 +142,9 @@ class Screen:
     def _of(self, hypothesis: Learned) -> tuple[Scored, Block]:
         space = signature_of(hypothesis, self.sums.readings)
         block = self.sums.block(space.table)
-        return self._scored(hypothesis, block, self._factors(space), self.sizes_mm), block
+        is_anew = hypothesis.variable.is_anew
+        sizes_mm = self.sizes_mm[self.sizes_mm <= MOST_ANEW_MM] if is_anew else self.sizes_mm
+        return self._scored(hypothesis, block, self._factors(space), sizes_mm), block
 
     def ranked(self, hypotheses: Sequence[Learned]) -> list[Learned]:
         """Sort learned hypotheses by their evidence on few rows, the largest first."""

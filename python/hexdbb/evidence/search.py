@@ -284,9 +284,11 @@ class Search:
         if isinstance(scored.hypothesis, Learned):
             # What has few splines on many axes is asked on all of them: a load's direction is in the sum. Six elements
             # have their directions.
-            is_whole = scored.hypothesis.variable.is_coarse or scored.hypothesis.element == EACH
-            shared = 1 if is_whole else scored.hypothesis.components
-            most = (most_seen or self.criteria.most_seen) // shared
+            # Steps from sweep to sweep are as many as there are sweeps.
+            steps, is_each = scored.hypothesis.variable.instants, scored.hypothesis.element == EACH
+            shared = 1 if scored.hypothesis.variable.is_coarse or is_each or steps else scored.hypothesis.components
+            least = self.criteria.most_tuned if steps else self.criteria.most_seen
+            most = max(most_seen or 0, least) // shared if steps else (most_seen or least) // shared
             seen = scored.marginal.seen(self.criteria.least_seen, most)
             return Member(scored.hypothesis, seen, scored.marginal.size)
         return Member(scored.hypothesis)

@@ -195,7 +195,7 @@ class Learned:
     @property
     def is_of_time(self) -> bool:
         """Whether it is a free function of time, which says nothing of a time that was left out."""
-        return self.variable.column == "time_s"
+        return self.variable.column == "time_s" or self.variable.is_anew
 
     @property
     def ball(self) -> str:

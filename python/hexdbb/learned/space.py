@@ -92,7 +92,7 @@ class Space:
             if seen.is_known and seen.highest - seen.lowest <= least:
                 raise InputError(f"{name}: {variable.column} hardly varies in these samples (expected it to vary)")
             each = SAMPLES_PER_SPLINE_OF_TURN if period else SAMPLES_PER_SPLINE
-            enough = (each if variable.count > 1 else 2) * variable.count
+            enough = 2 if variable.instants else (each if variable.count > 1 else 2) * variable.count
             if seen.different < enough:
                 raise InputError(f"{name}: {variable.column} has {seen.different} different values (expected more)")
             if variable.signed:

@@ -22,6 +22,8 @@ SCREW_LEAD = -1.0
 TURN = 2.0 * np.pi
 AXES_OF_VECTOR = 3
 """Numbers of a column that belongs to axes, not to sliders or legs."""
+EACH_SWEEP = "sweep"
+"""Column that counts the sweeps."""
 OF_MEMORY = "."
 """In the name of a column of the samples that remembers: what follows the column's own name, and says how."""
 
@@ -170,6 +172,11 @@ class Variable:
         named = {"time_s" if is_growing(each) else each for each in (*factors, self.column)} - {""}
         remembered = {"time_s" for each in named if OF_MEMORY in each}
         return frozenset({each.partition(OF_MEMORY)[0] for each in named} | remembered)
+
+    @property
+    def is_anew(self) -> bool:
+        """Whether it is another with each sweep, as its column counts."""
+        return self.column == EACH_SWEEP
 
     @property
     def is_constant(self) -> bool:

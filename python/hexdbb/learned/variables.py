@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from hexdbb.learned.variable import BENT, ELAPSED, SCREW_LEAD, TURN, Variable
+from hexdbb.learned.variable import BENT, EACH_SWEEP, ELAPSED, SCREW_LEAD, TURN, Variable
 
 LEAST_TILT = 1e-3
 """rad: drives that follow a command of constant orientation leave a hundredth of it; a commanded change is more."""
@@ -113,6 +113,18 @@ FINE_TIME = Variable("fine_time", "time_s", "s", "time", 40)
 TIME_IN_SWEEP = Variable("time_in_sweep", "time_in_sweep_s", "s", "time since the capture began", 10, is_log=True)
 IN_CIRCLE = Variable("time_in_circle", "time_in_circle_s", "s", "time since the circle was begun", 10, is_log=True)
 """The operator takes the bar in hand where a circle begins, not with every sweep of it."""
+MOST_SWEEPS = 96
+"""Sweeps of which each may be otherwise: a test of an hour has thirty to a hundred. Those beyond are like the last."""
+SWEEP = Variable(
+    "each_sweep",
+    EACH_SWEEP,
+    "",
+    "number of the sweep",
+    MOST_SWEEPS - 1,
+    instants=tuple(each + 0.5 for each in range(MOST_SWEEPS - 1)),
+)
+"""What is another with each sweep: a cup that sits a little otherwise each time that the bar comes, a bar that a warm hand
+has lengthened, a drive that was referenced anew."""
 SINCE_FIXING = Variable(
     "time_since_fixing", "time_since_fixing_s", "s", "time since the set-up was fixed", 10, is_log=True
 )

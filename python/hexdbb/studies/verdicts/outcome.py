@@ -58,6 +58,7 @@ VARIABLES = {
     "warming": ("time",),
     "step": ("time",),
     "fine_time": ("time",),
+    "each_sweep": ("time",),
     "time_since_fixing": ("time",),
     "time_in_circle": ("time",),
     "roll": ("tilt",),
