@@ -147,6 +147,8 @@ class _Scan:
         self.step_mm = criteria.step_mm
         self.of, self.pushes, self.temper = rows, pushes[rows.order], temper
         self.at_change, self.time_s = rows.at_change, rows.time_s
+        # What the model leaves of steps is positive, but for rounding where noise is far below what they push.
+        self._least = ROUNDING * float(np.max(np.sum(self.pushes**2, axis=0)))
         self._alone: tuple[Floats, Floats] | None = None
 
     def gains(self, instants: list[float], rows: slice = EVERY) -> Floats:
@@ -164,7 +166,7 @@ class _Scan:
             half = self._behind(white, rows)
             information = information - np.matmul(half, half.transpose(0, 2, 1))
             gradient = gradient - half @ fitted
-        known = information + np.eye(self.pushes.shape[1]) / self.step_mm**2
+        known = information + np.eye(self.pushes.shape[1]) * (self.step_mm**-2 + self._least)
         gain: Floats = 0.5 * np.einsum("ni,ni->n", gradient, np.linalg.solve(known, gradient[..., None])[..., 0])
         # Rows of one instant step together: a step begins at the first of them.
         first = np.concatenate([[False], np.diff(self.time_s) > 0.0])[rows]
@@ -185,10 +187,8 @@ class _Scan:
         """Return the white columns of steps beside the model's own, and what the readings say of them."""
         steps = np.hstack([self.pushes * (self.time_s >= at)[:, None] * self.step_mm for at in instants])
         cross = self.of.white.T @ steps
-        own = steps.T @ steps
-        # What the model leaves of steps is positive, but for rounding where noise is far below what steps push.
-        least = 1.0 + ROUNDING * float(np.max(np.diag(own)))
-        factor = np.linalg.cholesky(own + least * np.eye(len(own)) - cross.T @ cross)
+        least = 1.0 + self._least * self.step_mm**2
+        factor = np.linalg.cholesky(steps.T @ steps + least * np.eye(steps.shape[1]) - cross.T @ cross)
         inverse = np.linalg.inv(factor)
         white: Floats = (steps - self.of.white @ cross) @ inverse.T
         fitted: Floats = inverse @ (steps.T @ self.of.residual - cross.T @ self.of.fitted)

@@ -90,9 +90,9 @@ def _is_outdone_untested(search: Search, node: Node) -> bool:
     """Check for one effect that misses far more than it explains, whatever excuses it, where a function says more.
 
     Where the readings left in hardly hold geometry, an error of any size is no more than is expected: nothing tests the
-    effect then but its evidence, and a function that has more of it may be true as well, but for the effect's own: that
-    of its place and variable. So may anything where it errs more than geometry does without it, and nothing else that
-    was left out is explained by it.
+    effect then but its evidence, and a function that has more of it may be true as well; but for one in which it lives,
+    where its formula explains nearly all: that says how its form differs. So may anything where it errs more than
+    geometry does without it, and nothing else that was left out is explained by it.
     """
     explains = max(search.root.trial.left - node.trial.left, 1e-9) ** 0.5
     missing = [each for each in _held(search, node) if each.after > search.criteria.missed_far * explains]
@@ -101,7 +101,7 @@ def _is_outdone_untested(search: Search, node: Node) -> bool:
     shares = [held.share for grouping, held in search.checked(node).heldout.items() if grouping not in (ARC, "lap")]
     if max(shares, default=0.0) < search.criteria.explained_min and any(each.after > each.before for each in missing):
         return True
-    own = search.kin.get(node.trial.names[0], set())
+    own = search.kin.get(node.trial.names[0], set()) if _explains_by_formulas(search, node) else set()
     alone = (each for each in search.nodes if len(each.members) == 1 and not each.is_known)
     alone = (each for each in alone if each.trial.names[0] not in own)
     tested = (each for each in alone if not (each.trial.is_of_time or each.trial.refused) and is_complete(search, each))

@@ -32,6 +32,16 @@ def test_what_changes_is_not(kind: str, seed: int) -> None:
     assert not is_white([white + change for white, change in zip(noise(seed), changes[kind], strict=True)])
 
 
+@pytest.mark.parametrize("seed", range(10))
+def test_noise_may_be_larger_at_another_feed(seed: int) -> None:
+    feeds = [20.0, 80.0] * (SERIES // 2)
+    larger = [(3.0 if feed > 50.0 else 1.0) * each for feed, each in zip(feeds, noise(seed), strict=True)]
+    assert not is_white(larger)
+    assert is_white(larger, feeds)
+    burst = [5.0 * each if place == 4 else each for place, each in enumerate(larger)]
+    assert not is_white(burst, feeds)
+
+
 def test_too_little_to_tell() -> None:
     assert not is_white([])
     assert not is_white([np.ones(10)])

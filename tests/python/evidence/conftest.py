@@ -9,6 +9,7 @@ import pytest
 
 from hexdbb import _core
 from hexdbb.evidence.readings import Linear, Readings, State
+from hexdbb.learned.places import BY_LOAD
 from hexdbb.machine import shipped_machine
 from hexdbb.samples.prediction import PORT_COUNT
 
@@ -33,7 +34,10 @@ def readings() -> Readings:
         "bar_angle_rad": turn % (2.0 * np.pi),
         "mount": np.zeros(rows),
     }
+    shares = np.random.default_rng(6).normal(size=(len(BY_LOAD), 6))
+    columns |= {name: np.tile(share, (rows, 1)) for name, share in zip(BY_LOAD, shares, strict=True)}
     circle = np.arange(rows) // 240
+    columns["sweep"] = circle
     groups = {
         "circle": circle,
         "feed": np.arange(rows) // 60 % 2,

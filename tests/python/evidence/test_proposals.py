@@ -42,6 +42,14 @@ def test_two_steps_of_one_thing_are_both_found(linear: Linear, readings: Reading
     )
 
 
+def test_readings_without_noise_have_steps(linear: Linear, readings: Readings, port: Port) -> None:
+    """What is pushed is then far above a reading's noise, by which sums of squares are lost to rounding."""
+    pushes = replace(readings, ports=1e4 * readings.ports)
+    shift = 1e4 * port("cup")[:, 0] * 3e-3 * (readings.state["time_s"] >= readings.state["time_s"][431])
+    found = _of(replace(linear, residual=shift, own=1e4 * linear.own), pushes, "learned:cup:step")
+    assert found[0].hypothesis.variable.instants[0] == pytest.approx(readings.state["time_s"][431], abs=0.051)
+
+
 def test_noise_proposes_no_step(linear: Linear, readings: Readings) -> None:
     found = proposals(linear, readings, Thinned(readings, 200), DEFAULT)
     assert not [each for each in found if each.hypothesis.variable.instants]
@@ -79,6 +87,15 @@ def test_a_period_of_the_gauge_s_scale_is_found(linear: Linear, readings: Readin
 def test_a_period_in_time_is_found_of_a_leg_that_swings(linear: Linear, readings: Readings, port: Port) -> None:
     swing = port("leg")[:, 1] * 3e-3 * np.sin(2.0 * np.pi * readings.state["time_s"] / 2.3)
     (found,) = _of(replace(linear, residual=linear.residual + swing), readings, "learned:leg:2:time_period")
+    assert found.hypothesis.variable.period == pytest.approx(2.3, rel=0.01)
+
+
+def test_a_period_in_time_is_found_of_what_pulls_at_the_platform(
+    linear: Linear, readings: Readings, port: Port
+) -> None:
+    borne = np.sum(readings.state["force_by_pull_z"] * port("leg"), axis=1)
+    pull = 3e-3 * borne * np.sin(2.0 * np.pi * readings.state["time_s"] / 2.3)
+    (found,) = _of(replace(linear, residual=linear.residual + pull), readings, "learned:load:time_period")
     assert found.hypothesis.variable.period == pytest.approx(2.3, rel=0.01)
 
 
