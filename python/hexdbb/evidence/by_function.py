@@ -33,7 +33,7 @@ def or_by_functions(search: Search, node: Node) -> Node:
     if len(node.members) == 1:
         return _or_elsewhere(search, node)
     for member in node.members:
-        if _is_by_form(search, node, member):
+        if is_by_form(search, node, member):
             node = max(_instead(search, node, member), key=lambda each: each.score, default=node)
     return node
 
@@ -61,7 +61,7 @@ def _or_elsewhere(search: Search, node: Node) -> Node:
     return max(found, key=lambda each: each.score, default=node)
 
 
-def _is_by_form(search: Search, node: Node, member: Member) -> bool:
+def is_by_form(search: Search, node: Node, member: Member) -> bool:
     """Check for a known effect of which the functions of its form explain the larger part of what it does."""
     form = node.trial.forms[node.members.index(member)]
     if not isinstance(member.hypothesis, Known) or form is None or not form.columns:

@@ -8,7 +8,7 @@ from hexdbb.diagnosis import Sufficiency
 from hexdbb.evidence.admissible import Checked
 from hexdbb.evidence.as_forms import as_forms
 from hexdbb.evidence.beside import with_known_left
-from hexdbb.evidence.by_function import or_by_functions
+from hexdbb.evidence.by_function import is_by_form, or_by_functions
 from hexdbb.evidence.by_period import with_periods
 from hexdbb.evidence.each_element import or_at_each_element
 from hexdbb.evidence.exchange import of_better_form, settled, with_found_beside
@@ -205,11 +205,14 @@ def _in_order(search: Search, node: Node, learned: list[Learned]) -> list[Learne
 def _is_lead(search: Search, node: Node, causes: list[Hypothesis], cause: Hypothesis) -> bool:
     """Check for a known effect beside learned functions that one of them may say, or leave by being no more exact.
 
-    So may one that explains more than the effect does: what is not known that far may be at another place too.
+    So may one that explains more than the effect does: what is not known that far may be at another place too. And what
+    explains by the functions of its form more than by its formula takes what the others leave.
     """
     others = [each for each in causes if isinstance(each, Learned)]
     if not isinstance(cause, Known) or not others:
         return False
+    if is_by_form(search, node, node.members[node.hypotheses.index(cause)]):
+        return True
     if any(may_say(search, cause, each) for each in others):
         return True
     most = max(left_without(search, node, each) for each in others)

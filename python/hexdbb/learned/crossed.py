@@ -48,7 +48,7 @@ OF_OTHER = tuple(neighbour(each) for each in _OTHER)
 OF_BAR = (v.BAR_ANGLE, v.BAR_AZIMUTH, v.BAR_ELEVATION, v.DEFLECTION, v.SINCE_TURN, v.TURNED)
 DRAGGED = tuple(along("velocity", each) for each in DIRECTIONS_DEG)
 """What is loose, or dragged, along one axis only."""
-OF_MOUNTED = (*OF_BAR, *OF_PATH, *OF_TIME, *DRAGGED)
+OF_MOUNTED = (*OF_BAR, *OF_PATH, *OF_TIME, v.SWEEP, *DRAGGED)
 """States of what is mounted for the measurement: ball, cup, bar and gauge."""
 OF_ELEMENT = (*OF_CARRIAGE, *OF_JOINT, *OF_SWING, *OF_PATH, *OF_BAR, *OF_TIME, *OF_OTHER, v.NEIGHBOUR_VELOCITY)
 RINGING = (v.SINCE_REVERSAL, SINCE_REVERSAL_EACH_WAY)
@@ -88,7 +88,7 @@ OF_LEG = (*OF_ELEMENT, *_products(FACTORS_OF_ELEMENT, MULTIPLIED))
 OF_SLIDER = tuple(each for each in OF_LEG if each.column != v.JOINT_ANGLE.column)
 """Without functions of the joint's angle: its cosine is what a slider moves its leg by, and the leg has them."""
 CROSSED: dict[str, tuple[Variable, ...]] = {
-    "slider": _besides("slider", OF_SLIDER),
+    "slider": _besides("slider", (*OF_SLIDER, v.SWEEP)),
     "leg": _besides("leg", (*OF_LEG, *STICKING)),
     **{place: _besides(place, OF_LEG) for place in ("lateral", "vertical")},
 }

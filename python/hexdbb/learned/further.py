@@ -259,10 +259,9 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
     "slider_joint": OF_SLIDER_JOINT,
     "platform_joint": OF_PLATFORM_JOINT,
     "ball": (*OF_BALL, *COURSES_IN_PLATFORM, *SINKING),
-    "cup": (v.SWEEP, *OF_BALL, *COURSES, *LEANING, *of_drives((v.POSITION,))),
+    "cup": (*OF_BALL, *COURSES, *LEANING, *of_drives((v.POSITION,))),
     "load": LOADS,
     "reading": (
-        v.SWEEP,
         *PRODUCTS_OF_READING,
         *READING_EACH_WAY,
         SINCE_TURN_BY_DEFLECTION,
