@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.refine import finely_tuned
 from hexdbb.evidence.screen import Scored, Screen
-from hexdbb.evidence.screened import add_kin, screened_crossed, screened_finer
+from hexdbb.evidence.screened import add_kin, screened_anew, screened_crossed, screened_finer
 from hexdbb.evidence.settling import explained_by_formulas, is_complete, leaves_room, predicts
 from hexdbb.evidence.shortlist import shortlist
 from hexdbb.evidence.sure import is_for_sure
@@ -65,9 +65,19 @@ def as_much_as(search: Search, node: Node, rows: int | None = None, part: float 
     return part * 0.5 * rows * explained
 
 
+def explains_in_a_sweep(search: Search, best: Node) -> bool:
+    """Check that a set explains all, for sure or not: what is another with each sweep contains what stays in one.
+
+    Beside known effects that explain all, though not for sure, further functions are looked at next, such as a holder
+    that falls over with the platform's tilt.
+    """
+    return needs_no_other(search, best) or (best.is_known and is_complete(search, best))
+
+
 LAST_RESORTS: tuple[tuple[Screened, Callable[[Search, Node], bool]], ...] = (
     (screened_finer, is_complete),
     (screened_crossed, needs_no_other),
+    (screened_anew, explains_in_a_sweep),
 )
 """What is screened last, in this order, and what tells that a set needs none of it."""
 

@@ -149,7 +149,22 @@ def screened_crossed(search: Search, base: Trial, screen: Screen) -> list[Scored
     screen : Screen
         Of its linearisation.
     """
-    return _screened_once(search, screen, _elsewhere(search, base, search.learnable.crossed.values()))
+    every = (each for each in search.learnable.crossed.values() if not each.variable.is_anew)
+    return _screened_once(search, screen, _elsewhere(search, base, every))
+
+
+def screened_anew(search: Search, base: Trial, screen: Screen) -> list[Scored]:
+    """Screen what is another with each sweep, after all else: it contains whatever stays in a sweep.
+
+    Parameters
+    ----------
+    search : Search
+    base : Trial
+    screen : Screen
+        Of its linearisation.
+    """
+    every = (each for each in search.learnable.crossed.values() if each.variable.is_anew)
+    return _screened_once(search, screen, _elsewhere(search, base, every))
 
 
 def _screened_once(search: Search, screen: Screen, every: list[Learned]) -> list[Scored]:

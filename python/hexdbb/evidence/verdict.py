@@ -9,6 +9,7 @@ from hexdbb.evidence.admissible import Checked
 from hexdbb.evidence.as_forms import as_forms
 from hexdbb.evidence.beside import with_known_left
 from hexdbb.evidence.by_function import is_by_form, or_by_functions
+from hexdbb.evidence.by_growth import or_one_that_grows
 from hexdbb.evidence.by_period import with_periods
 from hexdbb.evidence.each_element import or_at_each_element
 from hexdbb.evidence.exchange import of_better_form, settled, with_found_beside
@@ -121,7 +122,7 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     before = left_over(search.root.trial, search.trials, search.criteria, matters_um)
     if before.is_sufficient:
         return Verdict("none", (), search.root, None, before, refined_forms(search))
-    searched = or_the_second_alone(search, search.run())
+    searched = or_one_that_grows(search, or_the_second_alone(search, search.run()))
     first = _in_sure_words(search, or_at_each_element(search, or_at_two_elements(search, searched)))
     other = or_a_state_that_predicts(search, or_another_that_predicts(search, first))
     node = in_known_words(search, other)

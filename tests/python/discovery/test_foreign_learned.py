@@ -19,6 +19,8 @@ NUMBERS = {"rail-warms": 470.4, "fan-cools": 16.0, "nut-heats": 304.0, "cover-ja
 NUMBERS |= {"legs-breathe": 702.0, "nut-lifts": 190.0, "motor-heats-foot": 94.6, "end-heats-leg": 18.26}
 NUMBERS |= {"clamp-leaks": 20.432, "column-sways": 430.0, "mains-hums": 1.0 / 49.963, "post-shakes": 1.0 / 4.63}
 """True value of the number in the name of the cause, by record: s or mm."""
+MISSED = 0.2**0.5
+"""Error on what was left out, over that without the cause, of one that explains four fifths of the squares there."""
 DIRECTION_DEG = {"hose-pulls": (40.1, 3.0), "foot-rocks": (70.0, 1.0), "foot-tips": (110.5, 3.0)}
 """The same of a direction, and how near: the hose's pull turns with the platform, which no function has, and which
 moves the best direction by two degrees, a fifteenth of what lies between two that are tried."""
@@ -144,7 +146,7 @@ def test_the_place_and_the_variable_are_found_where_no_known_effect_is(
     if name in DIRECTION_DEG:
         true_deg, near_deg = DIRECTION_DEG[name]
         assert float(only.choice.split("@")[1].partition("_")[0]) == pytest.approx(true_deg, abs=near_deg)
-    assert all(found.heldout[each].after_um < 0.4 * found.heldout[each].before_um for each in claimed)
+    assert all(found.heldout[each].after_um < MISSED * found.heldout[each].before_um for each in claimed)
 
 
 def test_a_dead_band_is_described_and_drafted(tmp_path: Path) -> None:
