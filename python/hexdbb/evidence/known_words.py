@@ -140,10 +140,12 @@ def _is_elsewhere(search: Search, node: Node, learned: Learned) -> bool:
     """Check for one known effect that acts elsewhere than a function does, so that its form is no excuse.
 
     The ball of one leg's joint has lobes; the joint off its place, of this leg or of the other in the pair, said nearly
-    all of it by functions of its form.
+    all of it by functions of its form. One whose formula explains nearly all asks for no excuse: a joint off its place
+    changes the length of its leg by the direction of that in the platform.
     """
     known, *others = node.hypotheses
-    return not others and isinstance(known, Known) and not acts_there(search, known, learned)
+    is_elsewhere = not others and isinstance(known, Known) and not acts_there(search, known, learned)
+    return is_elsewhere and explained_by_formulas(search, node) < search.criteria.form_explains
 
 
 def acts_there(search: Search, known: Known, learned: Learned) -> bool:

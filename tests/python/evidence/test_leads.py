@@ -19,22 +19,27 @@ ELSEWHERE = Learned.parse("learned:slider:5:velocity")
 
 
 @pytest.mark.parametrize(
-    ("beside", "left_without", "grade"),
+    ("beside", "left_without", "by_form", "grade"),
     [
-        (GIVES, 50.0, "unknown"),
-        (ELSEWHERE, 50.0, "effect"),
-        (ELSEWHERE, 10.0, "unknown"),
-        (PLAY, 50.0, "effect"),
-        (PLAY, 10.0, "effect"),
+        (GIVES, 50.0, False, "unknown"),
+        (ELSEWHERE, 50.0, False, "effect"),
+        (ELSEWHERE, 50.0, True, "unknown"),
+        (ELSEWHERE, 10.0, False, "unknown"),
+        (PLAY, 50.0, True, "effect"),
+        (PLAY, 10.0, False, "effect"),
     ],
-    ids=["at its place", "elsewhere", "elsewhere, which leaves as much", "known", "known, which leaves as much"],
+    ids=[
+        *("at its place", "elsewhere", "elsewhere, by its form", "elsewhere, which leaves as much", "known, by its form"),
+        "known, which leaves as much",
+    ],
 )
 def test_it_is_a_lead_beside_a_function_of_its_place_or_one_that_may_leave_as_much(
-    monkeypatch: pytest.MonkeyPatch, beside: Known | Learned, left_without: float, grade: str
+    monkeypatch: pytest.MonkeyPatch, beside: Known | Learned, left_without: float, by_form: bool, grade: str
 ) -> None:
     monkeypatch.setattr(verdict, "left_without", lambda search, node, each: left_without)
     monkeypatch.setattr(verdict, "of_forms", lambda search, trial: 20.0)
-    node: Any = SimpleNamespace(trial=SimpleNamespace(left=1.0))
+    monkeypatch.setattr(verdict, "is_by_form", lambda *_: by_form)
+    node: Any = SimpleNamespace(trial=SimpleNamespace(left=1.0), hypotheses=(PLAY, beside), members=(PLAY, beside))
     by_name: dict[str, Any] = {each.name: each for each in (GIVES, ELSEWHERE)}
     search: Any = SimpleNamespace(
         learnable=SimpleNamespace(by_name=by_name), kin={PLAY.name: {GIVES.name}, GIVES.name: set()}

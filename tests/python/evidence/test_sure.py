@@ -91,7 +91,8 @@ def asked(
     `left` is what their formulas leave, `fitted` what they leave with their forms, noise variances.
     """
     error = float(np.sqrt(1.0 + missed**2 * (BEFORE - 1.0)))
-    trial: Any = SimpleNamespace(members=members, left=fitted, forms=(form,) * len(members))
+    names = tuple(each.hypothesis.name for each in members)
+    trial: Any = SimpleNamespace(members=members, left=fitted, forms=(form,) * len(members), names=names)
     node = Node(trial, 0.0)
     search: Any = SimpleNamespace(
         criteria=DEFAULT,
@@ -99,6 +100,7 @@ def asked(
         nodes=[],
         trials=SimpleNamespace(explained_before=0.0),
         left_by_formulas=lambda trial: left,
+        kin={},
         checked=lambda node: SimpleNamespace(
             **{"share": 1.0, "excused": False, **checked},
             missed=missed,
