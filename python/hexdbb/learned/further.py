@@ -165,6 +165,7 @@ OF_BALL = (
     *(*LINGERING_ANGLE, *LATE_WARMING),
     *ROCKING,
     *CREEPING,
+    *SINCE_START,  # who leans on the table to start a circle steps back then
     *(product(factor, v.ANGLE) for factor in ("speed", "time")),
 )
 OF_GUIDEWAY = (
