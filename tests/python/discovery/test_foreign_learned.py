@@ -17,6 +17,7 @@ from hexdbb.plots.analysis_pages import discovery_pages
 
 NUMBERS = {"rail-warms": 470.4, "fan-cools": 16.0, "nut-heats": 304.0, "cover-jams": 2.5}
 NUMBERS |= {"legs-breathe": 702.0, "nut-lifts": 190.0, "motor-heats-foot": 94.6, "end-heats-leg": 18.26}
+NUMBERS |= {"rail-end-lifts": 522.0, "counterbalance-cycles": 147.0}
 NUMBERS |= {"clamp-leaks": 20.432, "column-sways": 430.0, "mains-hums": 1.0 / 49.963, "post-shakes": 1.0 / 4.63}
 """True value of the number in the name of the cause, by record: s or mm."""
 MISSED = 0.2**0.5
@@ -44,6 +45,12 @@ moves the best direction by two degrees, a fifteenth of what lies between two th
         ("lip-catches", "learned:slider:1:position_each_way", {"feed", "direction", "lap"}),
         # By 1 - exp(-t/470 s), the truth: three known effects, legs and two screws, explained as much.
         ("rail-warms", "learned:vertical:2:time_position_settling@", {"circle", "feed", "direction"}),
+        # One end of a rail, which a coolant tank warms: a screw that shrank and one of another guideway that grew, for sure.
+        ("rail-end-lifts", "learned:vertical:3:time_position_settling@", {"feed", "direction", "lap"}),
+        # A magnet that slips a little at each approach of the bar: a function of the speed and the time.
+        ("cup-slips-each-time", "learned:cup:each_sweep", {"lap"}),
+        # A compressor that cycles, by the pull of the counterbalance at elastic legs: the reading, and the cup besides.
+        ("counterbalance-cycles", "learned:load:time_period@", {"circle", "feed", "direction", "lap"}),
         # It pulls more with every turn, and the other way round in the other direction.
         ("cable-winds", "learned:reading:turned", {"circle", "feed"}),
         # A brake disc that rubs once a turn of the screw, against the travel: by no function of either alone.
