@@ -129,7 +129,9 @@ Neighbours compare_with_neighbours(const Numbers& angle_rad, const Numbers& valu
   Neighbours out{Eigen::VectorXd::Zero(values.size()), decltype(Neighbours::alone)::Constant(values.size(), false)};
   for (const Rows& rows : captures) {
     const Eigen::Index inside = rows.size() - 2;
-    if (rows.size() <= std::max<Eigen::Index>(2 * test.neighbours, kFewest) || !is_dense(angle_rad(rows), test.dense_rad)) continue;
+    if (rows.size() <= std::max<Eigen::Index>(2 * test.neighbours, kFewest) ||
+        !is_dense(angle_rad(rows), test.dense_rad))
+      continue;
     const Eigen::VectorXd own = values(rows);
     Eigen::VectorXd apart = Eigen::VectorXd::Zero(rows.size());
     apart.segment(1, inside) = own.segment(1, inside) - 0.5 * (own.head(inside) + own.tail(inside));

@@ -31,8 +31,8 @@ AGAIN = 3.0
 """Standard deviations from the middle of its two neighbours at which a reading is looked at, and from their median at
 which another of the same place is off too: one in 370 of normal noise, of which the next question leaves none."""
 ALIKE = 0.2
-"""Part of what a reading is off by that another of the same place must be off by: of a peak one reading wide the nearest
-reading of another lap has half. Of 130 glitches of 11,500 readings ten had noise, or the neighbours of another glitch,
+"""Part of what a reading is off by that another of the same place must be off by: of a peak one reading wide the
+nearest reading of another lap has half. Of 130 glitches of 11,500 readings ten had noise, or the neighbours of another glitch,
 at their place in another lap."""
 SAME_PLACE_RAD = np.radians(1.0)
 """Angle within which two readings of a circle are of one place: two or three readings of a usual lap; at slower rates
@@ -43,8 +43,8 @@ JUMP = 1.5
 """Distance from the median over the jump of the prediction at a reversal up to which a reading was taken meanwhile: it
 lies between where it was and where it will be, but for noise, and what the median takes of either."""
 CHANCE = 0.05
-"""Probability of as many meetings of two glitches in two laps, below which they are the machine's: one meeting among few
-glitches is."""
+"""Probability of as many meetings of two glitches in two laps, below which they are the machine's: one meeting among
+few glitches is."""
 HOPELESS = 0.1
 """Part of the readings from which on none is looked at twice."""
 MOST = 0.02

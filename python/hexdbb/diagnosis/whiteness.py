@@ -45,9 +45,10 @@ def is_white(series: Sequence[Floats], feeds: Sequence[float] | None = None) -> 
     counting = [each - each.mean() for each in compress(series, counts)]
     if not counting or not all(each.any() for each in counting):
         return False
-    return _line_chance(counting) > CHANCE and _burst_chance(
-        counting, list(compress(feeds or [0.0] * len(series), counts))
-    ) > CHANCE
+    return (
+        _line_chance(counting) > CHANCE
+        and _burst_chance(counting, list(compress(feeds or [0.0] * len(series), counts))) > CHANCE
+    )
 
 
 def _line_chance(series: Sequence[Floats]) -> float:

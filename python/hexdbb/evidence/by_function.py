@@ -41,8 +41,8 @@ def or_by_functions(search: Search, node: Node) -> Node:
 def _or_elsewhere(search: Search, node: Node) -> Node:
     """Return a function elsewhere in place of one effect whose formula explains hardly anything.
 
-    At its own place the effect keeps its name: of a bow of which geometry takes nearly all only its form is seen, beside
-    nothing that the form could have borrowed. Elsewhere: a ball with lobes was one that sits 2.6 mm otherwise in one
+    At its own place the effect keeps its name: of a bow of which geometry takes nearly all only its form is seen,
+    beside nothing that the form could have borrowed. Elsewhere: a ball with lobes was one that sits 2.6 mm otherwise in one
     set-up, of which geometry took all but the lobes.
     """
     (member,) = node.members

@@ -43,8 +43,9 @@ SHAKING = (("reading", ALL), ("cup", ALL))
 EVERY = slice(0, None)
 """All rows."""
 ROUNDING = 1e-13
-"""Part of the largest of some sums of squares by which rounding may make what is left of them negative: a thousand times
-that of a float. Of noise of 0.3 µm it adds a millionth to the prior, of readings without noise it keeps them positive."""
+"""Part of the largest of some sums of squares by which rounding may make what is left of them negative: a thousand
+times that of a float. Of noise of 0.3 µm it adds a millionth to the prior, of readings without noise it keeps them
+positive."""
 
 
 @dataclass(frozen=True)

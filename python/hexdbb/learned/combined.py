@@ -21,7 +21,8 @@ SLIPS = {
     **dict.fromkeys(("swing_angle", "platform_joint_angle"), (0.01, 0.04)),
 }
 """How far a contact yields before it slips, at first, by the variable that strains it: loads per vertical load change
-by 0.1 to 0.2 in a circle, joints turn by 0.3 to 0.6 rad, legs swing and incline by 0.1 to 0.2. The readings then move it."""
+by 0.1 to 0.2 in a circle, joints turn by 0.3 to 0.6 rad, legs swing and incline by 0.1 to 0.2. The readings then move
+it."""
 LONG_S = (6.0, 20.0)
 """The same where circles are run up to from afar: what is shorter forgets the run-up, longer is seen in the mean."""
 FACTORS = {

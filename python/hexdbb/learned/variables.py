@@ -123,8 +123,8 @@ SWEEP = Variable(
     MOST_SWEEPS - 1,
     instants=tuple(each + 0.5 for each in range(MOST_SWEEPS - 1)),
 )
-"""What is another with each sweep: a cup that sits a little otherwise each time that the bar comes, a bar that a warm hand
-has lengthened, a drive that was referenced anew."""
+"""What is another with each sweep: a cup that sits a little otherwise each time that the bar comes, a bar that a warm
+hand has lengthened, a drive that was referenced anew."""
 SINCE_FIXING = Variable(
     "time_since_fixing", "time_since_fixing_s", "s", "time since the set-up was fixed", 10, is_log=True
 )

@@ -66,7 +66,7 @@ def test_noise_beyond_a_step_is_as_laps_say(clean: Record) -> None:
 
 
 def test_encoders_that_show_the_same_in_every_lap_add_their_rounding() -> None:
-    """A simulator writes the commanded positions, to a step of 5 nm here; 10 µm of encoders are 1.5 µm of the reading."""
+    """A simulator writes commanded positions, to a step of 5 nm here; 10 µm of encoders are 1.5 µm of the reading."""
     record = read_record(Path(__file__).parents[2] / "data" / "foreign" / "socket-ridged.parquet")
     columns = {name: record.columns[name] for name in record.columns if name in SLIDERS}
     assert len(columns) == len(SLIDERS)

@@ -45,7 +45,7 @@ moves the best direction by two degrees, a fifteenth of what lies between two th
         ("lip-catches", "learned:slider:1:position_each_way", {"feed", "direction", "lap"}),
         # By 1 - exp(-t/470 s), the truth: three known effects, legs and two screws, explained as much.
         ("rail-warms", "learned:vertical:2:time_position_settling@", {"circle", "feed", "direction"}),
-        # One end of a rail, which a coolant tank warms: a screw that shrank and one of another guideway that grew, for sure.
+        # One end of a rail, which a coolant tank warms: a screw that shrank and another that grew, for sure.
         ("rail-end-lifts", "learned:vertical:3:time_position_settling@", {"feed", "direction", "lap"}),
         # A magnet that slips a little at each approach of the bar: a function of the speed and the time.
         ("cup-slips-each-time", "learned:cup:each_sweep", {"lap"}),

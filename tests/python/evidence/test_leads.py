@@ -29,8 +29,8 @@ ELSEWHERE = Learned.parse("learned:slider:5:velocity")
         (PLAY, 10.0, False, "effect"),
     ],
     ids=[
-        *("at its place", "elsewhere", "elsewhere, by its form", "elsewhere, which leaves as much", "known, by its form"),
-        "known, which leaves as much",
+        *("at its place", "elsewhere", "elsewhere, by its form", "elsewhere, which leaves as much"),
+        *("known, by its form", "known, which leaves as much"),
     ],
 )
 def test_it_is_a_lead_beside_a_function_of_its_place_or_one_that_may_leave_as_much(
