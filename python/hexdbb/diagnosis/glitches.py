@@ -32,8 +32,8 @@ AGAIN = 3.0
 which another of the same place is off too: one in 370 of normal noise, of which the next question leaves none."""
 ALIKE = 0.2
 """Part of what a reading is off by that another of the same place must be off by: of a peak one reading wide the
-nearest reading of another lap has half. Of 130 glitches of 11,500 readings ten had noise, or the neighbours of another glitch,
-at their place in another lap."""
+nearest reading of another lap has half. Of 130 glitches of 11,500 readings ten had noise, or the neighbours of another
+glitch, at their place in another lap."""
 SAME_PLACE_RAD = np.radians(1.0)
 """Angle within which two readings of a circle are of one place: two or three readings of a usual lap; at slower rates
 as far as neighbours are apart, but for spikes at reversals, which are shorter than that."""

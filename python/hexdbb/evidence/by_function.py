@@ -42,8 +42,8 @@ def _or_elsewhere(search: Search, node: Node) -> Node:
     """Return a function elsewhere in place of one effect whose formula explains hardly anything.
 
     At its own place the effect keeps its name: of a bow of which geometry takes nearly all only its form is seen,
-    beside nothing that the form could have borrowed. Elsewhere: a ball with lobes was one that sits 2.6 mm otherwise in one
-    set-up, of which geometry took all but the lobes.
+    beside nothing that the form could have borrowed. Elsewhere: a ball with lobes was one that sits 2.6 mm otherwise in
+    one set-up, of which geometry took all but the lobes.
     """
     (member,) = node.members
     cause, form = member.hypothesis, node.trial.forms[0]

@@ -94,7 +94,7 @@ def test_a_formula_that_explains_nearly_all_is_named_though_circles_hardly_hold_
 
 @pytest.mark.long
 def test_a_joint_off_its_place_is_no_function_of_its_legs_direction() -> None:
-    """A part of its offset turns with the swing: its leg's length by the direction in the platform had 126 nats more."""
+    """A part of its offset turns with the swing: the leg's length by its direction had 126 nats more."""
     found = found_in("joint-off-its-place")
     assert found.verdict == "effect"
     assert [each.choice for each in found.causes] == ["joint_offset:2"]
