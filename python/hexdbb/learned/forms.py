@@ -33,6 +33,9 @@ BAND_ENDS = 13
 moves the ends from there."""
 FINEST = 1e-6
 """Last step of the search for a shape, over its range: words and drafts state four digits."""
+GAINED = 1e-9
+"""Part of the variation that another shape must explain besides: where many say the same, rounding alone would move the
+search on and on."""
 
 
 @dataclass(frozen=True)
@@ -98,10 +101,11 @@ def fits(x: Floats, y: Floats, weights: Floats, period: float = 0.0) -> Iterator
             yield _fitted("step", x, y, weights, np.empty(0))
         periods = np.geomspace(SHORTEST, LONGEST, GRID)[:, None] * (high - low)
         yield _searched("sine", x, y, weights, periods, [(SHORTEST * (high - low), LONGEST * (high - low))])
-    spacing = float(np.median(np.diff(x)))
-    widths = np.geomspace(2.0 * spacing, WIDEST * (high - low), 8)
-    grid = np.array([(centre, width) for centre in np.linspace(low, high, GRID) for width in widths])
-    yield _searched("bump", x, y, weights, grid, [(low, high), (2.0 * spacing, WIDEST * (high - low))])
+    narrowest, widest = 2.0 * float(np.median(np.diff(x))), WIDEST * (high - low)
+    if narrowest < widest:  # a step is told by four points, between which no bump is seen
+        widths = np.geomspace(narrowest, widest, 8)
+        grid = np.array([(centre, width) for centre in np.linspace(low, high, GRID) for width in widths])
+        yield _searched("bump", x, y, weights, grid, [(low, high), (narrowest, widest)])
     if not period:
         ends = np.linspace(low, high, BAND_ENDS)
         bands = np.array([(one, other - one) for one, other in combinations_with_replacement(ends, 2)])
@@ -120,7 +124,7 @@ def _searched(kind: str, x: Floats, y: Floats, weights: Floats, grid: Floats, bo
     while (step > least).any():
         around = (np.clip(best.shapes + way * step, lower, upper) for way in ways)
         other = max((_fitted(kind, x, y, weights, shapes) for shapes in around), key=_explained)
-        if other.explained > best.explained:
+        if other.explained > best.explained + GAINED:
             best = other
         else:
             step = 0.5 * step

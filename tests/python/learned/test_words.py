@@ -127,3 +127,11 @@ def test_two_states_are_told_by_how_far_they_are_apart() -> None:
 )
 def test_what_is_mounted_goes_by_a_drive_that_is_named(name: str, words: str) -> None:
     assert Learned.parse(f"learned:cup:{name}").variable.words == words
+
+
+@pytest.mark.parametrize("at", [100.0, 692.2, 1400.0])
+def test_a_step_in_time_is_described_wherever_it_is(at: float) -> None:
+    """Four points say all of it; the search for a bump between them had no end where it is in the middle of a test."""
+    points = np.array([0.0, at - 5e-5, at, 1471.7])
+    step = Curve("step", "s", "time_s", "", points, 5e-3 * (points >= at), np.full(4, 5e-5), np.full(4, 300.0))
+    assert describe(step, 0.0).kind != "nothing"
