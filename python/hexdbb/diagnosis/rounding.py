@@ -60,11 +60,9 @@ def with_rounding(samples: Samples, noise_mm: float) -> float:
 def step_mm(values: Floats) -> float:
     """Return the step to which some values are rounded, mm; 0 where none of `STEPS_MM` is."""
     from_first = values - values[0]
-    for step in STEPS_MM:
-        steps = from_first / step
-        if np.all(np.abs(steps - np.round(steps)) < ROUNDED):
-            return step if from_first.any() else 0.0
-    return 0.0
+    steps = from_first[:, None] / np.array(STEPS_MM)
+    on_steps = np.all(np.abs(steps - np.round(steps)) < ROUNDED, axis=0)
+    return STEPS_MM[int(np.argmax(on_steps))] if on_steps.any() and from_first.any() else 0.0
 
 
 def _rounded(noise_mm: float, step: float) -> float:
