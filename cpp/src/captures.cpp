@@ -58,21 +58,22 @@ double median_near(const Eigen::VectorXd& values, Eigen::Index place, int neighb
   return median(std::move(near));
 }
 
-/// Return what a line through two values behind the first tells of that: the median of the nearest three such lines, so
-/// that neither of the two counts for much. `values` has seven rows at least.
-double extrapolated(const Eigen::VectorXd& values) {
-  return median(Eigen::Vector3d(2.0 * values[1] - values[2], 2.0 * values[2] - values[4], 2.0 * values[3] - values[6]));
+/// Return how far each value is from what lines through two behind it tell: the median of the nearest three such lines, so
+/// that neither of the two counts for much. `values` has kFewest + 1 rows at least; the last kFewest have none.
+Eigen::VectorXd from_behind(const Eigen::VectorXd& values) {
+  Eigen::VectorXd out(values.size() - kFewest);
+  for (Eigen::Index row = 0; row < out.size(); ++row) {
+    const auto behind = [&](int step) { return 2.0 * values[row + step] - values[row + 2 * step]; };
+    out[row] = values[row] - median(Eigen::Vector3d(behind(1), behind(2), behind(3)));
+  }
+  return out;
 }
 
-/// A value's distance from what its neighbours lead to expect, over the standard deviation of one value.
-struct Expected {
-  double off;
-  bool is_alone;
-};
-
-Expected compare_end(const Eigen::VectorXd& from_end, double usual, double alone) {
-  const double off = (from_end[0] - extrapolated(from_end)) / (kOfExtrapolation * usual);
-  return {off, std::abs(off) > alone};
+/// Return how far the first of some values is from what those behind tell of it, in standard deviations of that: those of
+/// noise, or of what the capture shows, which bends as it does at its end.
+double first_off(const Eigen::VectorXd& values, double noise) {
+  const Eigen::VectorXd off = from_behind(values);
+  return off[0] / std::max(kOfExtrapolation * noise, kMedianToSigma * median(off.cwiseAbs()));
 }
 
 }  // namespace
@@ -144,9 +145,11 @@ Neighbours compare_with_neighbours(const Numbers& angle_rad, const Numbers& valu
       out.off[rows[row]] = (own[row] - median_near(own, row, test.neighbours)) / usual;
       out.alone[rows[row]] = std::abs(out.off[rows[row]]) > test.alone;
     }
-    const Expected first = compare_end(own, usual, test.alone), last = compare_end(own.reverse(), usual, test.alone);
-    out.off[rows[0]] = first.off, out.alone[rows[0]] = first.is_alone;
-    out.off[rows[inside + 1]] = last.off, out.alone[rows[inside + 1]] = last.is_alone;
+    const double ends[] = {first_off(own, usual), first_off(own.reverse(), usual)};
+    for (const int last : {0, 1}) {
+      const Eigen::Index row = rows[last == 0 ? 0 : inside + 1];
+      out.off[row] = ends[last], out.alone[row] = std::abs(ends[last]) > test.alone;
+    }
   }
   return out;
 }

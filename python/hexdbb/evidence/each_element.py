@@ -44,23 +44,33 @@ def or_at_each_element(search: Search, node: Node) -> Node:
     """
     if not search.learns or needs_no_other(search, node):
         return node
-    # A period that is nearly right leaves what six functions by a better one do not.
-    node = with_tuned_numbers(search, node)
-    if needs_no_other(search, node):
+    tuned = _tuned(search, node)
+    if needs_no_other(search, tuned):
         return node
     screen = search.screen(search.root)
     few = Thinned(search.engine.readings, search.criteria.thinned_rows, search.criteria.ranking_roughness, keeps=False)
     ranked = Screen(screen.sums, search.criteria, few).ranked([*varying(_every(search), search.engine.readings)])
     best = {each.name: each for each in reversed(ranked)}
     chosen = [each for each in ranked if best[each.name] is each][:FITTED]
-    least = as_much_as(search, node)
+    least = as_much_as(search, tuned)
     scored = (screen.scored(each) for each in chosen)
     tried = search.tried(search.root, [each for each in scored if each.log_evidence >= least])
     most = search.root.trial.left - search.criteria.form_explains * (search.root.trial.left - 1.0)
     found = [finely_tuned(search, each) for each in tried if each.trial.left < most]
-    better = [each for each in found if _stands_before(search, each, node)]
+    better = [each for each in found if _stands_before(search, each, tuned)]
     search.nodes += better
     return max(better, key=lambda each: each.score, default=node)
+
+
+def _tuned(search: Search, node: Node) -> Node:
+    """Return a set with its best periods and time constants, to compare with: other steps tune it in their order.
+
+    A period that is nearly right leaves what six functions by a better one do not.
+    """
+    before = [*search.nodes]
+    tuned = with_tuned_numbers(search, node)
+    search.nodes[:] = before
+    return tuned
 
 
 def _stands_before(search: Search, each: Node, node: Node) -> bool:
