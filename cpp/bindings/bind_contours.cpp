@@ -115,9 +115,8 @@ void bind_contours(py::module_& module) {
       "    Standard deviations from the middle of both neighbours from which a value is looked at.\n"
       "alone : float\n    Standard deviations from the median of all neighbours beyond which it stands alone.\n\n"
       "Returns\n-------\noff : ndarray, shape (n,)\n"
-      "    Distance from the middle of both neighbours, in standard deviations; from the median of all neighbours "
-      "where\n"
-      "    that makes a value doubtful; at the ends of a capture from lines through the values behind.\n"
+      "    Distance from the middle of both neighbours, in standard deviations; at the ends of a capture from lines\n"
+      "    through the values behind.\n"
       "alone : ndarray of bool, shape (n,)\n\n"
       "Raises\n------\nValueError\n    Lengths that differ, or a row that is not there.");
 }

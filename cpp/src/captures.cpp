@@ -141,9 +141,7 @@ Neighbours compare_with_neighbours(const Numbers& angle_rad, const Numbers& valu
     for (Eigen::Index row = 0; row < rows.size(); ++row) {
       out.off[rows[row]] = apart[row];
       if (!(std::abs(apart[row]) > test.doubtful)) continue;
-      // The neighbours of a reading that stands alone are far from their middle as well, but not from the median.
-      out.off[rows[row]] = (own[row] - median_near(own, row, test.neighbours)) / usual;
-      out.alone[rows[row]] = std::abs(out.off[rows[row]]) > test.alone;
+      out.alone[rows[row]] = std::abs(own[row] - median_near(own, row, test.neighbours)) > test.alone * usual;
     }
     const double ends[] = {first_off(own, usual), first_off(own.reverse(), usual)};
     for (const int last : {0, 1}) {

@@ -28,8 +28,8 @@ degrees, and three neighbours to each side span 36 then."""
 ALONE = 6.0
 """Standard deviations from that median beyond which a reading is off: one in 10^8 of normal noise."""
 AGAIN = 3.0
-"""Standard deviations from the middle of its two neighbours at which a reading is looked at, and from their median at
-which another of the same place is off too: one in 370 of normal noise, of which the next question leaves none."""
+"""Standard deviations from the middle of its two neighbours at which a reading is looked at, and another of the same
+place is off too: one in 370 of normal noise, of which the next question leaves none."""
 ALIKE = 0.2
 """Part of what a reading is off by that another of the same place must be off by: of a peak one reading wide the
 nearest reading of another lap has half. Of 130 glitches of 11,500 readings ten had noise, or the neighbours of another
