@@ -78,6 +78,7 @@ def glitches_in(samples: Samples, residual_mm: Floats, noise_mm: float) -> Mask:
     )
     if alone.mean() > HOPELESS:
         return np.zeros_like(alone)
+    off = _without_neighbours(off, alone)
     others = [row for row in np.flatnonzero(alone) if not _is_elsewhere_too(samples, residual_mm, off, row)]
     alone[:] = False
     alone[others] = True
@@ -114,6 +115,17 @@ def _from_middle(values: Floats) -> Floats:
     apart = np.zeros_like(values)
     apart[1:-1] = values[1:-1] - 0.5 * (values[:-2] + values[2:])
     return apart
+
+
+def _without_neighbours(off: Floats, alone: Mask) -> Floats:
+    """Return distances from the middle of both neighbours, zero where one of these stands alone and is why."""
+    found = off.copy()
+    for step in (-1, 1):
+        beside = np.flatnonzero(alone) + step
+        beside = beside[(beside >= 0) & (beside < len(off))]
+        is_why = ~alone[beside] & (off[beside] * off[beside - step] < 0.0)
+        found[beside[is_why]] = 0.0
+    return found
 
 
 def _is_elsewhere_too(samples: Samples, residual_mm: Floats, off: Floats, row: np.intp) -> bool:
