@@ -883,7 +883,8 @@ def compare_with_neighbours(
     Returns
     -------
     off : ndarray, shape (n,)
-        Distance from the middle of both neighbours, in standard deviations.
+        Distance from the middle of both neighbours, in standard deviations; at the ends of a capture from lines
+        through the values behind.
     alone : ndarray of bool, shape (n,)
 
     Raises
