@@ -50,7 +50,7 @@ moves the best direction by two degrees, a fifteenth of what lies between two th
         # A magnet that slips a little at each approach of the bar: a function of the speed and the time.
         ("cup-slips-each-time", "learned:cup:each_sweep", {"lap"}),
         # A compressor that cycles, by the pull of the counterbalance at elastic legs: the reading, and the cup besides.
-        ("counterbalance-cycles", "learned:load:time_period@", {"circle", "feed", "direction", "lap"}),
+        ("counterbalance-cycles", "learned:load:time_period@", {"circle", "feed", "lap"}),
         # It pulls more with every turn, and the other way round in the other direction.
         ("cable-winds", "learned:reading:turned", {"circle", "feed"}),
         # A brake disc that rubs once a turn of the screw, against the travel: by no function of either alone.
