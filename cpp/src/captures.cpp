@@ -16,7 +16,7 @@ const double kOfDifference = std::sqrt(1.5);
 // The same of a value minus one told by a line through two behind it: the root of 1 + 4 + 1.
 const double kOfExtrapolation = std::sqrt(6.0);
 
-// Readings of a capture, all but one of which tell what to expect at its end (`extrapolated`).
+// Readings of a capture, needed behind its first one to tell what to expect there (`from_behind`).
 constexpr Eigen::Index kFewest = 6;
 
 void require_length(const char* what, Eigen::Index length, Eigen::Index expected) {

@@ -55,8 +55,8 @@ struct NeighbourTest {
   double alone;      // standard deviations from the median of all neighbours beyond which it stands alone
 };
 
-/// How far each value is from the middle of its two neighbours, in standard deviations; at a capture's ends from lines
-/// through those behind it. And whether it stands alone. Zero
+/// How far each value is from the middle of its two neighbours, in standard deviations (at a capture's ends from lines
+/// through those behind it), and whether it stands alone; zero
 /// and false in captures that are too short or not dense.
 struct Neighbours {
   Eigen::VectorXd off;

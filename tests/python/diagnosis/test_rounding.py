@@ -55,7 +55,7 @@ def test_values_that_are_not_rounded_have_none() -> None:
 
 @pytest.mark.parametrize("noise_um", [0.02, 0.15, 0.5, 2.0])
 def test_readings_rounded_to_a_step_are_off_by_noise_and_rounding(clean: Record, noise_um: float) -> None:
-    """Of a tenth of a step of noise laps show a fifth to a half of the error, by how their places differ."""
+    """The lap differences alone would show only a part of this error when the noise is below half a step."""
     samples = read_to_a_step(clean, noise_um)
     assert noise_of(samples).sigma_mm * 1e3 == pytest.approx(np.hypot(noise_um, UNIFORM_UM), rel=0.15)
 
