@@ -8,7 +8,7 @@ only, it may show once, at a drive's reversal. Where many readings stand alone t
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,6 +39,11 @@ SAME_PLACE_RAD = np.radians(1.0)
 as far as neighbours are apart, but for spikes at reversals, which are shorter than that."""
 REVERSAL_S = 0.2
 """Time about a drive's reversal in which it may cross its play, or jump, from one reading to the next."""
+SELDOM = 0.25
+"""Part of a drive's other reversals up to which something shows at none of them: a sample may miss what is shorter than
+the time between two, but not three times of four; glitches show at one in some hundreds."""
+FEW_REVERSALS = 4
+"""Other reversals of a drive of which as many must be seen to say so."""
 JUMP = 1.5
 """Distance from the median over the jump of the prediction at a reversal up to which a reading was taken meanwhile: it
 lies between where it was and where it will be, but for noise, and what the median takes of either."""
@@ -132,7 +137,8 @@ def _is_elsewhere_too(samples: Samples, residual_mm: Floats, off: Floats, row: n
     """Check whether a reading is the machine's for another reason than that it comes again in another lap.
 
     It is off to the same side in most other sweeps of the place, or at most sweeps' ends, or is a late jump; or it is
-    near a reversal, where the other direction says nothing, and no other lap tells.
+    near a reversal, where the other direction says nothing, no other lap tells, and the drive's other reversals do not
+    speak against it.
     """
     near, other_lap = _near(samples, row), _in_another_lap(samples, row)
     sweep = samples["sweep"]
@@ -141,7 +147,8 @@ def _is_elsewhere_too(samples: Samples, residual_mm: Floats, off: Floats, row: n
     if len(also) > 0.5 * len(others) or _is_at_most_ends(samples, off, row):
         return True
     is_repeated = np.any(other_lap & near & (_apart_rad(samples, row) <= SAME_PLACE_RAD))
-    return (not is_repeated and _is_at_reversal(samples, row)) or _is_late_jump(samples, residual_mm, row)
+    may_be_once = not is_repeated and _is_at_reversal(samples, row) and not _is_at_this_alone(samples, off, row)
+    return may_be_once or _is_late_jump(samples, residual_mm, row)
 
 
 def _again_in_another_lap(samples: Samples, off: Floats, row: np.intp) -> tuple[bool, int]:
@@ -215,6 +222,23 @@ def _wrapped(angle_rad: Floats) -> Floats:
     """Return angles within half a turn of zero."""
     within: Floats = np.remainder(angle_rad + np.pi, 2.0 * np.pi) - np.pi
     return within
+
+
+def _is_at_this_alone(samples: Samples, off: Floats, row: np.intp) -> bool:
+    """Check that at hardly any other reversal of the drives that turn near a reading another is off as it is."""
+    is_off = np.abs(off) > max(AGAIN, ALIKE * abs(off[row]))
+    every = [turn for rows in samples.sweeps() for turn in _turns(samples, rows)]
+    here = {drive for drive, about in every if row in about}
+    shown = [bool(is_off[about].any()) for drive, about in every if drive in here and row not in about]
+    return len(shown) >= FEW_REVERSALS and float(np.mean(shown)) <= SELDOM
+
+
+def _turns(samples: Samples, rows: NDArray[np.intp]) -> Iterator[tuple[int, NDArray[np.intp]]]:
+    """Yield the drives that reverse on a sweep, each with the readings about its reversal."""
+    time_s, travels = samples["time_s"][rows], samples["travel_direction"][rows]
+    for before, drive in np.argwhere(travels[1:] * travels[:-1] < 0.0):
+        at_s = 0.5 * (time_s[before] + time_s[before + 1])
+        yield int(drive), rows[np.abs(time_s - at_s) <= REVERSAL_S]
 
 
 def _is_at_reversal(samples: Samples, row: np.intp) -> bool:

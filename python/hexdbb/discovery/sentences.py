@@ -12,6 +12,8 @@ from hexdbb.learned.places import is_learned
 
 UNKNOWN = "something is missing that no known effect explains"
 NEAR = "something is missing that known effects explain in part only, or do not predict"
+MOST_RIVALS = 3
+"""Sets named beside a cause from which they are not told: who reads a sentence keeps no more; the table has them all."""
 
 
 def verdict_sentence(grade: Verdict, causes: Sequence[Cause], share: float, heldout: Mapping[str, HeldOut]) -> str:
@@ -37,7 +39,7 @@ def verdict_sentence(grade: Verdict, causes: Sequence[Cause], share: float, held
     named = [each.clause for each in causes if each.verdict != "unknown"]
     clause = capital("; ".join(named))
     if grade == "ambiguous":
-        clause = f"{clause}, or these readings do not tell it from {joined(causes[0].rivals)}"
+        clause = f"{clause}, or these readings do not tell it from {_best(causes[0].rivals)}"
     beside = [each.clause for each in causes if each.verdict == "unknown"]
     if beside:
         clause = f"{clause}; beside it something that no known effect explains: {_list(beside)}"
@@ -48,7 +50,7 @@ def likely_sentence(causes: Sequence[Cause], share: float, heldout: Mapping[str,
     """Return the likely cause in one sentence, for who has asked where a model fails and not yet why."""
     clauses = []
     for each in causes:
-        others = f" (or {joined(each.rivals)}, which explains these readings as well)" if each.rivals else ""
+        others = f" (or {_best(each.rivals)}, which explains these readings as well)" if each.rivals else ""
         known = "no known effect, " if is_learned(each.choice) else ""
         clauses.append(f"{known}{each.clause}{others}")
     likely = "likely cause" if len(causes) == 1 else "likely causes"
@@ -60,6 +62,12 @@ def explained_words(count: int, share: float, heldout: Mapping[str, HeldOut]) ->
     unseen = unseen_words(heldout, share)
     subject = "it explains" if count == 1 else "together they explain"
     return f"{subject} {percent(share)} of what the model missed" + (f", {unseen}" if unseen else "")
+
+
+def _best(rivals: Sequence[str]) -> str:
+    """Return the first of what a cause is not told from, and how many more there are."""
+    more = len(rivals) - MOST_RIVALS
+    return joined([*rivals[:MOST_RIVALS], *([f"{more} more"] if more > 0 else [])])
 
 
 def _list(clauses: Sequence[str]) -> str:

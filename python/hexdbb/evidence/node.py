@@ -27,7 +27,7 @@ class Node:
         return tuple(each.hypothesis for each in self.trial.members)
 
     def member(self, hypothesis: Hypothesis) -> Member:
-        """Return the member of a hypothesis: a set fitted before has its members in the order of then."""
+        """Return the member of a hypothesis."""
         return self.members[self.hypotheses.index(hypothesis)]
 
     @property

@@ -150,7 +150,7 @@ def _nearly_as_good(search: Search, node: Node, cause: Hypothesis, form: Form) -
     share = max(search.criteria.same_kind_share, form.deviation**2)
     return [
         " + ".join(other.trial.names)
-        for other in search.nodes
+        for other in sorted(search.nodes, key=lambda each: each.trial.left)
         if not has_kind(search, other, cause)
         and not _has_it_elsewhere(other, node, cause)
         and other.trial.left - node.trial.left < share * excess

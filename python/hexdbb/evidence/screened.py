@@ -67,9 +67,9 @@ def known_beside(search: Search, base: Trial, screen: Screen) -> list[Scored]:
         Of its linearisation.
     """
     kept = search.screened_known
-    if id(base) not in kept:
-        kept[id(base)] = _known_beside(search, base, screen)
-    return list(kept[id(base)])
+    if id(base.model) not in kept:
+        kept[id(base.model)] = _known_beside(search, base, screen)
+    return list(kept[id(base.model)])
 
 
 def _known_beside(search: Search, base: Trial, screen: Screen) -> list[Scored]:

@@ -187,21 +187,21 @@ class Search:
 
     def checked_trial(self, trial: Trial) -> Checked:
         """Return the same of a trial, whether it is of a node or not."""
-        if id(trial) not in self._checked:
-            self._checked[id(trial)] = check(trial, self.root.trial, self.trials, self.criteria)
-        return self._checked[id(trial)]
+        if id(trial.model) not in self._checked:
+            self._checked[id(trial.model)] = check(trial, self.root.trial, self.trials, self.criteria)
+        return self._checked[id(trial.model)]
 
     def first_error(self, trial: Trial) -> float:
         """Return how a trial predicts the first grouping that it claims; of many tried, few are checked further."""
-        if id(trial) not in self._first_errors:
-            self._first_errors[id(trial)] = first_error(trial, self.root.trial, self.trials)
-        return self._first_errors[id(trial)]
+        if id(trial.model) not in self._first_errors:
+            self._first_errors[id(trial.model)] = first_error(trial, self.root.trial, self.trials)
+        return self._first_errors[id(trial.model)]
 
     def left_by_formulas(self, trial: Trial) -> float:
         """Return the mean square (noise variances) that a trial leaves without the functions of forms."""
-        if id(trial) not in self._by_formulas:
-            self._by_formulas[id(trial)] = left_by_formulas(trial.forms, self.trials.linear(trial))
-        return self._by_formulas[id(trial)]
+        if id(trial.model) not in self._by_formulas:
+            self._by_formulas[id(trial.model)] = left_by_formulas(trial.forms, self.trials.linear(trial))
+        return self._by_formulas[id(trial.model)]
 
     def left_by_formula(self, trial: Trial, form: Form | None) -> float:
         """Return the same without the functions of one form alone."""

@@ -77,7 +77,7 @@ def _of_shapes_anew(search: Search, node: Node, members: Sequence[Member]) -> No
     if not search.engine.absent.has_shape(effect_of(members[-1].hypothesis)):
         return node
     trial = search.trials.with_shapes_anew(members)
-    if trial is node.trial:
+    if trial.model is node.trial.model:
         return node
     found = Node(trial, node.score + trial.log_evidence - node.trial.log_evidence)
     search.nodes[:] = [found if each is node else each for each in search.nodes]

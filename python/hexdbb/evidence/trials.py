@@ -37,6 +37,9 @@ from hexdbb.threads import fits_at_once
 Floats = NDArray[np.float64]
 KEPT = 24
 """Linearisations kept in memory: some megabytes each."""
+FORM_ROUNDS = 3
+"""Times that an effect's form is asked for, at most, beside the forms of others, which change meanwhile: functions
+chosen in turn settle in the second round mostly."""
 
 
 class Trials:
@@ -53,6 +56,7 @@ class Trials:
         self.engine, self.criteria = engine, criteria
         self.forms = Forms(engine, homes, criteria)
         self._known: dict[frozenset[str], Trial] = {}
+        self._in_order: dict[tuple[str, ...], Trial] = {}
         self._ahead: dict[frozenset[str], Future[Fitted]] = {}
         self.present = [Known(*each) for each in engine.present()]
         self._linear: OrderedDict[frozenset[str], Linear] = OrderedDict()
@@ -69,6 +73,11 @@ class Trials:
         near : Trial, optional
             Of nearly the same members: the fit starts from its values.
 
+        Returns
+        -------
+        Trial
+            With its members in the order asked for, whichever was fitted.
+
         Raises
         ------
         RunError
@@ -80,7 +89,19 @@ class Trials:
             self._known[key] = self._about(
                 tuple(members), self._fitted(members, near) if ahead is None else ahead.result()
             )
-        return self._known[key]
+        return self._ordered(self._known[key], members)
+
+    def _ordered(self, trial: Trial, members: Sequence[Member]) -> Trial:
+        """Return a trial with its members in an order: what is asked of the last one is asked of what was added."""
+        names = tuple(each.hypothesis.name for each in members)
+        if names == trial.names:
+            return trial
+        kept = self._in_order.get(names)
+        if kept is None or kept.model is not trial.model:
+            places = [trial.names.index(each) for each in names]
+            own, forms = ([every[place] for place in places] for every in (trial.members, trial.forms))
+            kept = self._in_order[names] = replace(trial, members=tuple(own), forms=tuple(forms))
+        return kept
 
     def of_fewer(self, members: Sequence[Member], whole: Trial) -> Trial:
         """Fit what is left of a set, whose time constants are not sought anew from several starts."""
@@ -97,7 +118,7 @@ class Trials:
         found = self._about(tuple(members), self._fitted(members))
         if before is not None and before.log_evidence >= found.log_evidence:
             self._linear.pop(key, None)  # of what was found; made anew where it is asked for
-            return before
+            return self._ordered(before, members)
         self._known[key] = found
         return found
 
@@ -157,7 +178,7 @@ class Trials:
         """Return the sums of a trial's linearisation; those of the model without hypotheses are kept, and the last."""
         if trial.members:
             last = self._last_sums
-            if last is None or last[0] is not trial or last[1] != groupings:
+            if last is None or last[0].model is not trial.model or last[1] != groupings:
                 last = self._last_sums = trial, groupings, Sums(self.linear(trial), self.engine.readings, groupings)
             return last[2]
         if groupings not in self._base:
@@ -243,15 +264,23 @@ class Trials:
     def _with_forms(self, linear: Linear, fitted: Fitted, every: Sequence[Known]) -> tuple[Linear, dict[Known, Form]]:
         """Return a linearisation with the discrepancies of some effects, and these.
 
-        A form too large for its effect may be that of one which comes after it: it is asked for again beside them all.
+        What one effect's form leaves, that of one asked before it had to describe: each is asked for again beside the
+        others, until all stand beside those beside which they were found.
         """
-        found: dict[Known, Form] = {}
-        for each in every:
-            linear, found[each] = self.forms.beside(linear, fitted, each)
-        for place, each in enumerate(every):
-            if not found[each].functions and any(found[later].columns for later in every[place + 1 :]):
-                linear, found[each] = self.forms.beside(linear, fitted, each)
-        return linear, found
+        forms: dict[Known, Form] = {}
+        alone, asked = linear, dict[Known, list[tuple[str, ...]]]()
+        for _ in range(FORM_ROUNDS):
+            for each in every:
+                others = [other for other in forms if other is not each and forms[other].columns]
+                functions = [forms[other].functions for other in others]
+                if asked.get(each) == functions:
+                    continue
+                linear, asked[each] = alone, functions
+                for other in others:
+                    forms[other] = replace(forms[other], first=linear.own.shape[1])
+                    linear = self.forms.with_columns(linear, forms[other])
+                linear, forms[each] = self.forms.beside(linear, fitted, each)
+        return linear, forms
 
     def _fitted(self, members: Sequence[Member], near: Trial | None = None) -> Fitted:
         """Fit the model of some members: from `near`, or from where it was fitted with all but the last if it was."""

@@ -135,3 +135,21 @@ def test_a_reading_taken_while_a_play_is_crossed_is_the_machine(clean: Record) -
     far = left.copy()
     far[row] -= 200.0 * NOISE_MM * np.sign(jumps[row])
     assert glitches_in(Samples.of([with_readings(clean, (exact + far) * 1e3)]), far, NOISE_MM)[row]
+
+
+@pytest.mark.parametrize("every", [1, 12], ids=["at every reversal", "at one of twelve"])
+def test_what_one_lap_shows_at_a_reversal_is_the_machines_where_other_reversals_show_it(
+    clean: Record, every: int
+) -> None:
+    """The second lap left out, no other reading of the circle's direction is at the place of one."""
+    first = clean.columns["lap"] == 0
+    one_lap = replace(clean, columns={name: each[first] for name, each in clean.columns.items()})
+    samples = Samples.of([one_lap])
+    turned = [np.flatnonzero(np.diff(samples["travel_direction"][rows, 2]) != 0.0)[:1] for rows in samples.sweeps()]
+    hit = np.concatenate([rows[at] for rows, at in zip(samples.sweeps(), turned, strict=True)])[::every]
+    left = np.random.default_rng(6).normal(0.0, NOISE_MM, len(samples))
+    left[hit] += 40.0 * NOISE_MM
+    exact = predict(samples, new_model(clean.machine).with_mounts(samples.mounts)).reading_mm
+    found = glitches_in(Samples.of([with_readings(one_lap, (exact + left) * 1e3)]), left, NOISE_MM)
+    assert found[hit].all() if every > 1 else not found[hit].any()
+    assert set(np.flatnonzero(found)) <= set(hit)

@@ -47,6 +47,12 @@ def test_a_cause_that_cannot_be_told_from_another() -> None:
     )
 
 
+def test_of_many_rivals_the_best_are_named() -> None:
+    rivals = ("screw_thermal:1", "bar_drift", "learned:cup:fine_time", "learned:ball:time", "learned:leg:1:time")
+    said = verdict_sentence("ambiguous", [replace(PLAY, verdict="ambiguous", rivals=rivals)], 0.99, {})
+    assert "do not tell it from screw_thermal:1, bar_drift, learned:cup:fine_time and 2 more; it explains" in said
+
+
 def test_a_learned_cause_alone_and_beside_a_known_one() -> None:
     assert verdict_sentence("unknown", [DENT], 0.86, {}) == (
         "something is missing that no known effect explains: slider 5 along its guideway: a dip; it explains 86 % of"

@@ -1,4 +1,4 @@
-"""A set that was fitted before comes back with its members in the order of then."""
+"""A set that was fitted before comes back with its members in the order asked for, the last the one that was added."""
 
 from __future__ import annotations
 
@@ -6,12 +6,19 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from tests.foreign_records import samples_of
 
+from hexdbb.diagnosis import noise_of
 from hexdbb.evidence import refine
 from hexdbb.evidence.criteria import DEFAULT
+from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.node import Node
+from hexdbb.evidence.screen import Known
+from hexdbb.evidence.search import Search
 from hexdbb.evidence.trial import Member
 from hexdbb.learned import Learned
+from hexdbb.model import new_model
+from hexdbb.samples.places import with_set_up_of
 
 NAMES = ("learned:leg:1:position", "learned:cup:time")
 
@@ -28,6 +35,20 @@ def test_each_function_is_tuned_in_its_own_stead(monkeypatch: pytest.MonkeyPatch
     search: Any = SimpleNamespace(criteria=DEFAULT, trials=SimpleNamespace(of=of))
     refine.with_best_splines(search, _node(*(Member(Learned.parse(each)) for each in NAMES)))
     assert [sorted(each) for each in asked] == [sorted(NAMES)] * 2
+
+
+def test_a_set_has_its_members_in_the_order_asked_for() -> None:
+    samples = samples_of("bow-small")
+    model = with_set_up_of(samples, new_model(samples.machine))
+    search = Search(Engine(samples, model, noise_of(samples), DEFAULT), ("straightness",), DEFAULT)
+    bow, other_bow = (Member(Known("straightness", (each,))) for each in "12")
+    one, other = search.trials.of((bow, other_bow)), search.trials.of((other_bow, bow))
+    assert one.names == ("straightness:1", "straightness:2")
+    assert other.names == one.names[::-1]
+    assert other.forms == one.forms[::-1]
+    assert other.model is one.model
+    assert search.trials.of((other_bow, bow)) is other
+    assert search.checked_trial(other) is search.checked_trial(one)
 
 
 def _node(*members: Member) -> Node:
