@@ -107,6 +107,10 @@ class Forms:
         """Return a linearisation with the functions of a form among its own values."""
         return linear.wider(self._functions.columns(form.coefficients))
 
+    def table(self, function: Learned) -> Floats:
+        """Return what a function does to the readings, a column for each of its splines, shape (n, columns)."""
+        return np.asarray(self._functions.signature(function).table, np.float64)
+
     def _chosen(self, linear: Linear, groups: Sequence[tuple[Learned, ...]], size_mm: float) -> Beside | None:
         """Choose functions by evidence, a variable at a time: one more only where the readings ask for it."""
         functions = list(dict.fromkeys(each for group in groups for each in group))

@@ -19,6 +19,7 @@ from hexdbb.evidence.criteria import DEFAULT, Criteria
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.thinned import Thinned
 from hexdbb.learned import ALL, Learned
+from hexdbb.learned.places import EACH, members
 
 Floats = NDArray[np.float64]
 
@@ -183,6 +184,14 @@ def discrepancy(
 
 
 def _by_element(each: Learned) -> tuple[Learned, ...]:
-    if each.element == ALL and each.place in ("slider", "leg"):
-        return (each, *(replace(each, element=element) for element in range(1, 7)))
-    return (each,)
+    return (each, *at_each(each)) if is_shared(each) else (each,)
+
+
+def is_shared(function: Learned) -> bool:
+    """Check for a function that six elements share, each of which may have one of its own."""
+    return function.element == ALL and function.place in ("slider", "leg")
+
+
+def at_each(function: Learned) -> list[Learned]:
+    """Return a function at each of six elements."""
+    return [replace(function, element=element) for element in members(EACH)]
