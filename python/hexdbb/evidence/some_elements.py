@@ -15,7 +15,7 @@ from hexdbb.evidence.all_elements import FEWEST
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.physical import is_one_sided
 from hexdbb.evidence.screen import Known
-from hexdbb.evidence.settling import explained
+from hexdbb.evidence.settling import NOTHING_LEFT, explained
 from hexdbb.evidence.trial import Member, Trial
 
 if TYPE_CHECKING:
@@ -46,9 +46,11 @@ def at_those_seen(search: Search, fewer: Node, members: Sequence[Member], *, one
             return None
         seen, whole = _seen(search, trial), search.engine.base.info(_effect(trial).effect).elements
         most = FEWEST if one_by_one else len(whole)
-        if len(seen) == len(whole):
-            seen = _seen(search, trial := _without_what_all_share(search, trial))
-            most = min(most, len(whole) // 2 + 1)
+        half = len(whole) // 2
+        if len(seen) > half:
+            # Six that lag may all do so: that some of them do not is said where they are most.
+            most = min(most, half + 1) if len(seen) == len(whole) else most
+            seen = _seen(search, trial := _without_what_all_share(search, trial, half))
         if not 2 <= len(seen) < most:
             return None
         known = _effect(trial)
@@ -92,16 +94,33 @@ def _of_right_sign(search: Search, trial: Trial) -> Trial:
     return trial
 
 
-def _without_what_all_share(search: Search, trial: Trial) -> Trial:
-    """Return a trial without the element at which its last effect is least, which then stands for none.
+def _without_what_all_share(search: Search, trial: Trial, most: int) -> Trial:
+    """Return a trial without the elements at which its last effect is least, one after another, until it is at few.
 
     What all share may hardly be seen: lags of half a millisecond of all drives are a delay, which geometry and forms
-    take, and two drives that lag were six, four of them by what could as well be nothing.
+    take, and two drives that lag were six, four of them by what could as well be nothing. So the least stands for none.
+
+    Parameters
+    ----------
+    search : Search
+    trial : Trial
+    most : int
+        Elements at which it is seen then.
+
+    Returns
+    -------
+    Trial
+        The last one that leaves no more than the one before.
     """
-    known = _effect(trial)
-    least = min(known.elements, key=lambda each: search.trials.size(trial, Known(known.effect, (each,))))
-    left = Known(known.effect, tuple(each for each in known.elements if each != least))
-    return search.trials.of((*trial.members[:-1], Member(left)))
+    while len(_seen(search, trial)) > most:
+        known = _effect(trial)
+        least = min(known.elements, key=lambda each: search.trials.size(trial, Known(known.effect, (each,))))
+        left = Known(known.effect, tuple(each for each in known.elements if each != least))
+        fewer = search.trials.of((*trial.members[:-1], Member(left)))
+        if fewer.left - trial.left > NOTHING_LEFT:
+            break
+        trial = fewer
+    return trial
 
 
 def of_wrong_sign(search: Search, trial: Trial) -> dict[str, float]:

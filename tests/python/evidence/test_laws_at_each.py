@@ -1,0 +1,51 @@
+"""An effect that all legs share, of another size at each, is by its formula what it is."""
+
+from __future__ import annotations
+
+import pytest
+from tests.foreign_records import samples_of
+
+from hexdbb.diagnosis import noise_of
+from hexdbb.evidence.criteria import DEFAULT
+from hexdbb.evidence.engine import Engine
+from hexdbb.evidence.formula import left_by_formulas
+from hexdbb.evidence.screen import Known
+from hexdbb.evidence.search import Search
+from hexdbb.evidence.trial import Member, Trial
+from hexdbb.model import new_model
+from hexdbb.samples.places import with_set_up_of
+
+EFFECTS = ("backlash", "leg_thermal", "pitch_cyclic")
+
+
+@pytest.fixture(scope="module")
+def search() -> Search:
+    samples = samples_of("play-beside-growth")
+    model = with_set_up_of(samples, new_model(samples.machine))
+    return Search(Engine(samples, model, noise_of(samples), DEFAULT), EFFECTS, DEFAULT)
+
+
+@pytest.fixture(scope="module")
+def trial(search: Search) -> Trial:
+    known = Known("backlash", ("4",)), Known("leg_thermal", ("1",), True), Known("pitch_cyclic", ("6",))
+    return search.trials.of(tuple(map(Member, known)))
+
+
+def test_forms_stand_beside_each_other(trial: Trial) -> None:
+    """Asked before the legs', the form of the play described how the legs differ, by velocity and acceleration."""
+    assert trial.left < 1.05
+    play = trial.forms[0]
+    assert play is not None
+    assert not play.is_odd
+    assert "learned:slider:4:direction_position" in play.functions
+
+
+def test_six_sizes_of_one_law_are_no_form(search: Search, trial: Trial) -> None:
+    alone = left_by_formulas(trial.forms, search.trials.linear(trial))
+    assert alone > 50.0
+    assert search.left_by_formulas(trial) < 0.1 * alone
+    # Of the others' forms nothing is taken.
+    for form in (trial.forms[0], trial.forms[2]):
+        linear = search.trials.linear(trial)
+        assert form is not None
+        assert search.left_by_formula(trial, form) == pytest.approx(left_by_formulas([form], linear))
