@@ -308,6 +308,9 @@ def test_play_and_spikes_of_two_sliders_are_told_apart_from_a_lag_of_all() -> No
         # In the words of learned functions it gave way to a guideway's side by position and direction.
         pytest.param("screws-and-lag", {"screw_thermal:1", "screw_thermal:5", "servo_lag:3"}, marks=pytest.mark.long),
         pytest.param("two-frictions", {"joint_friction:3", "joint_friction:6"}, marks=pytest.mark.long),
+        # Lags of all six, of which four are what a delay is as well; the play of quite another form.
+        pytest.param("two-lag-legs-grow", {"servo_lag:3", "servo_lag:4", "leg_thermal"}, marks=pytest.mark.long),
+        pytest.param("play-beside-growth", {"backlash:4", "leg_thermal", "pitch_cyclic:6"}, marks=pytest.mark.long),
     ],
 )
 def test_forms_of_their_own_do_not_hide_effects(name: str, causes: set[str]) -> None:
