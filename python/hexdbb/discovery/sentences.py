@@ -13,7 +13,7 @@ from hexdbb.learned.places import is_learned
 UNKNOWN = "something is missing that no known effect explains"
 NEAR = "something is missing that known effects explain in part only, or do not predict"
 MOST_RIVALS = 3
-"""Sets named beside a cause from which they are not told: who reads a sentence keeps no more; the table has them all."""
+"""Sets named beside a cause from which they are not told: a reader keeps no more; the table has them all."""
 
 
 def verdict_sentence(grade: Verdict, causes: Sequence[Cause], share: float, heldout: Mapping[str, HeldOut]) -> str:
