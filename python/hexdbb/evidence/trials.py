@@ -18,11 +18,10 @@ from functools import cached_property, partial
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.errors import RunError
 from hexdbb.evidence.alike import gained_alike
-from hexdbb.evidence.axes import LearnedAxes
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine, Fitted
+from hexdbb.evidence.fits import fitted
 from hexdbb.evidence.form import Form, Forms
 from hexdbb.evidence.homes import Homes
 from hexdbb.evidence.physical import outside_domain
@@ -31,7 +30,6 @@ from hexdbb.evidence.screen import Known
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.trial import Member, Trial
 from hexdbb.learned import Learned
-from hexdbb.model import Model, Term
 from hexdbb.threads import fits_at_once
 
 Floats = NDArray[np.float64]
@@ -99,8 +97,8 @@ class Trials:
         kept = self._in_order.get(names)
         if kept is None or kept.model is not trial.model:
             places = [trial.names.index(each) for each in names]
-            own, forms = ([every[place] for place in places] for every in (trial.members, trial.forms))
-            kept = self._in_order[names] = replace(trial, members=tuple(own), forms=tuple(forms))
+            own, forms = tuple(map(trial.members.__getitem__, places)), tuple(map(trial.forms.__getitem__, places))
+            kept = self._in_order[names] = replace(trial, members=own, forms=forms)
         return kept
 
     def of_fewer(self, members: Sequence[Member], whole: Trial) -> Trial:
@@ -285,77 +283,7 @@ class Trials:
     def _fitted(self, members: Sequence[Member], near: Trial | None = None) -> Fitted:
         """Fit the model of some members: from `near`, or from where it was fitted with all but the last if it was."""
         before = self._known.get(_key(members[:-1])) if len(members) > 1 else None
-        model, added = (self.engine.start, members) if before is None else (before.model, members[-1:])
-        for member in added:
-            if isinstance(member.hypothesis, Known):
-                model = self.engine.with_effect(model, member.hypothesis.effect, member.hypothesis.elements)
-            else:
-                assert member.factor is not None
-                model = self.engine.with_learned(model, member.hypothesis, member.factor, member.size_mm)
-        known = [each.hypothesis for each in added if isinstance(each.hypothesis, Known)]
-        # Shapes of known effects that `near` has are known from there: one start serves.
-        if near is not None and {each.name for each in known} <= {*near.names}:
-            return self.engine.fit(_from(near.model, model), from_minimum=True)
-        shapes, one_for_all = (
-            _free_shapes(model, {each.effect for each in some})
-            for some in (known, [each for each in known if len(each.elements) > 1])
-        )
-        if not shapes.any():
-            return self.engine.fit(model)
-        if one_for_all.any():
-            return self._with_one_shape_for_all(model, one_for_all)
-        begun = [np.where(shapes, start * model.prior_sigma, model.values) for start in self.criteria.shape_starts]
-        return self.engine.fit(model.with_values(begun[0]), starts=begun[1:])
-
-    def _with_one_shape_for_all(self, model: Model, shapes: NDArray[np.bool_]) -> Fitted:
-        """Fit a model whose effects share their shapes among elements: one is held, each value a fit of its own.
-
-        Where an effect has two shapes, as a spike at reversals has its time and its travel, the second follows the
-        first: moved together, a spike that lasts was also one that takes millimetres to rise.
-        """
-        model, names = model.with_free(model.free & ~shapes), [each.name for each in model.parameters()]
-        best: Fitted | None = None
-        for name in dict.fromkeys(each for each, is_shape in zip(names, shapes, strict=True) if is_shape):
-            at = shapes & (np.array(names) == name)
-            start = model if best is None else best.model
-            held = (np.where(at, each * model.prior_sigma, start.values) for each in self.criteria.shapes_for_all)
-            found = self._best_fit(start.with_values(each) for each in held)
-            best = found if best is None or found.linear.log_evidence > best.linear.log_evidence else best
-        assert best is not None
-        return best
-
-    def _best_fit(self, models: Iterable[Model]) -> Fitted:
-        """Fit several models, and return the fit of most evidence."""
-        found = []
-        for each in models:
-            try:
-                found.append(self.engine.fit(each))
-            except RunError:
-                continue
-        if not found:
-            raise RunError("no start of the fit succeeded")
-        return max(found, key=lambda each: each.linear.log_evidence)
-
-
-def _from(found: Model, model: Model) -> Model:
-    """Return a model that begins where another ended, with the effects and functions that both have."""
-    known = {term.effect: term for term in found.terms}
-
-    def begun(term: Term) -> Term:
-        other, own, before = known.get(term.effect), model.own(term.effect), found.own(term.effect)
-        if other is None or len(other.values) != len(term.values):
-            return term
-        is_same = own.is_like(before) if isinstance(own, LearnedAxes) else own is before
-        # At other elements than the model's the effect was there, and is not now.
-        return replace(term, values=np.where(term.free, other.values, term.values)) if is_same else term
-
-    return replace(model, terms=tuple(begun(term) for term in model.terms))
-
-
-def _free_shapes(model: Model, effects: set[str]) -> NDArray[np.bool_]:
-    """Return which values of a model are free shapes of some effects of the engine's, shape (size,)."""
-    of = [each.is_shape and each.shape is None and each.effect in effects for each in model.parameters()]
-    return np.array(of, bool) & model.free
+        return fitted(self.engine, members, before, near)
 
 
 def _key(members: Sequence[Member]) -> frozenset[str]:
