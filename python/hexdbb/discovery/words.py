@@ -54,7 +54,8 @@ def place_clause(hypothesis: Learned) -> str:
     if creeps(variable):
         return _creep_clause(hypothesis)
     if NUMBERED in variable.name:
-        repeats = f"repeats every {variable.period:.4g} {variable.unit}"
+        otherwise = ", otherwise at each feed" if variable.beside else ""
+        repeats = f"repeats every {variable.period:.4g} {variable.unit}{otherwise}"
         return f"{place}: {repeats if has_chosen_period(variable) else f'follows the {variable.words}'}"
     if not variable.column and not variable.times:
         return f"{place}: a constant"

@@ -9,7 +9,7 @@ choice costs, the log of the average over all that was tried relative to the bes
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,7 @@ from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.readings import Linear, Readings
 from hexdbb.evidence.thinned import Thinned
 from hexdbb.learned import ALL, PAIRS, Learned, periodic, step
+from hexdbb.learned.numbered import by_feed
 from hexdbb.learned.places import LEVERS
 from hexdbb.machine import MachineFile
 from hexdbb.predictors.periods import COARSE, FINE, LEAST_TURNS, Grid, strongest_frequency
@@ -40,6 +41,9 @@ OVERTONE = 3
 second, or the third, as strong as the first. A period in time has as many splines, and swings are nearly sines."""
 SHAKING = (("reading", ALL), ("cup", ALL))
 """Places that are sought for it: what hums is in the gauge, and the cup stands on the longest post."""
+ONE_FEED = 0.5
+"""Part of a swing's amplitude at one feed below which that at another says that the feed makes it: sums over some
+sweeps are off by less where the swing is several times the noise."""
 EVERY = slice(0, None)
 """All rows."""
 ROUNDING = 1e-13
@@ -285,8 +289,36 @@ def periods(
         carriages = (("slider_joint", element) for element in range(1, 7))
         for place, element in (*_shifting(), *carriages, ("load", ALL), ("leg", ALL)):
             if place != "ball" and is_asked_for(Learned(place, element, periodic("time", 1.0))):
-                weighted = linear.residual[:, None] * _answers(readings, place, element)
-                yield from _period(place, element, "time", weighted, time_s, highest)
+                answers = _answers(readings, place, element)
+                weighted = linear.residual[:, None] * answers
+                for found in _period(place, element, "time", weighted, time_s, highest):
+                    yield from (found, *_by_feed(found, weighted, answers, readings))
+
+
+def _by_feed(found: Proposal, weighted: Floats, answers: Floats, readings: Readings) -> Iterator[Proposal]:
+    """Yield what repeats in time, otherwise at each feed, where it hardly does at one of them.
+
+    Parameters
+    ----------
+    found : Proposal
+        What repeats alike at all feeds.
+    weighted, answers : ndarray, shape (n, axes)
+        Residual times what a push does to the readings, and that alone.
+    readings : Readings
+    """
+    time_s, feed, sweep = readings.state["time_s"], readings.groups["feed"], readings.groups["sweep"]
+    period_s = found.hypothesis.variable.period
+    # Slower than a sweep no motor excites it: what swings in minutes is by chance at one feed or another.
+    if min(float(np.ptp(time_s[sweep == each])) for each in np.unique(sweep)) < LEAST_TURNS * period_s:
+        return
+    wave = np.exp(2j * np.pi * time_s / period_s)[:, None]
+    sizes = [
+        float(np.linalg.norm(np.sum(weighted[rows] * wave[rows], axis=0) / np.sum(answers[rows] ** 2, axis=0)))
+        for rows in (feed == each for each in np.unique(feed))
+    ]
+    if min(sizes) < ONE_FEED * max(sizes):
+        hypothesis = replace(found.hypothesis, variable=by_feed(found.hypothesis.variable))
+        yield replace(found, hypothesis=hypothesis)
 
 
 def vibrations(linear: Linear, readings: Readings) -> Iterator[Proposal]:
@@ -308,9 +340,10 @@ def vibrations(linear: Linear, readings: Readings) -> Iterator[Proposal]:
     if np.mean(np.abs(gaps - usual) <= AS_LONG * usual) > EVEN:
         return
     for place, element in SHAKING:
-        weighted = linear.residual[:, None] * _answers(readings, place, element)
-        lowest = 0.5 / usual
-        yield from _period(place, element, "time", weighted, time_s, FASTEST_HZ, lowest=lowest, grid=COARSE)
+        answers = _answers(readings, place, element)
+        weighted, lowest = linear.residual[:, None] * answers, 0.5 / usual
+        for found in _period(place, element, "time", weighted, time_s, FASTEST_HZ, lowest=lowest, grid=COARSE):
+            yield from (found, *_by_feed(found, weighted, answers, readings))
 
 
 def _is_of_screw(learned: Learned, machine: MachineFile) -> bool:

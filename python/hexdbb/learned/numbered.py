@@ -56,6 +56,8 @@ GRAVITY_SPLINES = 8
 BY_MOUNT = "bar_angle_by_mount"
 """What a form's functions of the bar's direction are called: a seat yields, or is out of round, by as few lobes as a
 period has harmonics (`PERIOD_SPLINES`)."""
+BY_FEED = "time_period_by_feed"
+"""What repeats in time, otherwise at each feed, is called."""
 LAGGED, RELAXING, SETTLING, AFTER, ALONG, TURNING = "lagged", "relaxing", "settling", "after", "along", "turning"
 CREEP = f"growth_{SETTLING}"
 """What a growth towards an end is called that multiplies no function of another state."""
@@ -123,6 +125,21 @@ def periodic(column: str, period: float) -> Variable:
     is_fast = column == "time" and period < SHORT_S
     name = f"{period:.{FAST_DIGITS if is_fast else PERIOD_DIGITS}g}"
     return Variable(f"{column}_period@{name}", *REPEATING[column], PERIOD_SPLINES, period=float(name))
+
+
+def by_feed(variable: Variable) -> Variable:
+    """Return what repeats with a period of time, otherwise at each feed: what shakes at one feed only.
+
+    Frames shake where a motor's ripple meets their own frequency, at one speed and not at another. One function is
+    alike at all feeds, one grows with them, and one with their square: of up to three feeds each has its own.
+    """
+    return replace(
+        variable,
+        name=variable.name.replace("time_period", BY_FEED),
+        words=f"{variable.words}, otherwise at each feed",
+        times="feed_ratio_squared",
+        beside=("", "feed_ratio"),
+    )
 
 
 def by_direction(variable: Variable) -> Variable:
@@ -287,7 +304,8 @@ def has_chosen_number(variable: Variable) -> bool:
 
 def has_chosen_period(variable: Variable) -> bool:
     """Whether that number is a period; what turns with the screw may have another."""
-    return any(variable.name.removeprefix("direction_").startswith(f"{each}_period{NUMBERED}") for each in REPEATING)
+    kinds = (*(f"{each}_period" for each in REPEATING), BY_FEED)
+    return any(variable.name.removeprefix("direction_").startswith(f"{each}{NUMBERED}") for each in kinds)
 
 
 def number_of(variable: Variable) -> float:
@@ -336,6 +354,8 @@ def numbered(name: str, variables: Sequence[Variable]) -> Variable | None:
         return None
     if kind in (f"{each}_period" for each in REPEATING):
         return periodic(kind.removesuffix("_period"), values[0])
+    if kind == BY_FEED:
+        return by_feed(periodic("time", values[0]))
     if kind == BY_MOUNT:
         return by_mount(values[0])
     if kind == CREEP:

@@ -41,6 +41,8 @@ TIMES = {
     "leg_force": ", for each unit of the leg's force",
     "slider_joint_rate_rad_s": ", for each rad/s of the joint's turning",
     "warming_k": ", for each K of warming",
+    "feed_ratio": ", for each 50 mm/s of feed",
+    "feed_ratio_squared": ", for the square of each 50 mm/s of feed",
     "speed_mm_s": ", for each mm/s of the platform's speed",
     "carriages_acceleration_mm_s2": ", for each mm/s² of the carriages' acceleration",
     "course": ", along the direction in which the platform moves",

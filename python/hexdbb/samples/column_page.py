@@ -51,6 +51,8 @@ OWN = {
     "gap_mm": ("slider", "mm", "the slider's coordinate less that of the other one on its guideway"),
     "gap_rate_mm_s": ("slider", "mm/s", "the slider's velocity less that of the other one on its guideway"),
     "power_mm2_s3": ("slider", "mm^2/s^3", "velocity times acceleration of the slider; negative: it brakes"),
+    "feed_ratio": ("sample", "1", "commanded speed along the circle over 50 mm/s"),
+    "feed_ratio_squared": ("sample", "1", "the square of that"),
     "radius_mm": ("sample", "mm", "distance of the platform from the base's z axis, nominal machine"),
     "neighbour_velocity_mm_s": ("slider", "mm/s", "velocity of the other slider on the guideway"),
     "neighbour_acceleration_mm_s2": ("slider", "mm/s^2", "acceleration of the other slider on the guideway"),

@@ -30,6 +30,7 @@ from hexdbb.samples.deflection import (
     scale_mm,
 )
 from hexdbb.samples.distinct import distinct_rows
+from hexdbb.samples.feed import FEED_RATIOS, FEED_RATIOS_FROM, feed_ratios
 from hexdbb.samples.fixings import mount_key, require_agreement
 from hexdbb.samples.gap import GAPS, between
 from hexdbb.samples.lean import LEANS, LEANS_FROM, leans
@@ -98,6 +99,7 @@ class Whole:
             *LEANS,
             *GAPS,
             POWER,
+            *FEED_RATIOS,
             RADIUS,
             *NEIGHBOURS,
             *TURN,
@@ -145,6 +147,8 @@ class Whole:
             self.columns[name] = between(*self._known(GAPS[name]))
         elif name == POWER:
             self.columns[name] = power_mm2_s3(*self._known(*POWER_FROM))
+        elif name in FEED_RATIOS:
+            self.columns |= feed_ratios(*self._known(FEED_RATIOS_FROM))
         elif name == RADIUS:
             self.columns[name] = radii_mm(*self._known(RADIUS_FROM))
         elif name in NEIGHBOURS:

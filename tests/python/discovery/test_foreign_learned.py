@@ -156,6 +156,19 @@ def test_the_place_and_the_variable_are_found_where_no_known_effect_is(
     assert all(found.heldout[each].after_um < MISSED * found.heldout[each].before_um for each in claimed)
 
 
+@pytest.mark.long
+def test_a_pitch_error_is_seen_beside_a_leg_that_swings_at_one_feed() -> None:
+    """Alike at all feeds, beats of two periods said half of it, and what they left hid the pitch error."""
+    found = found_in("leg-swings-at-one-feed")
+    swings, pitch = found.causes
+    name, _, period_s = swings.choice.partition("@")
+    assert name == "learned:leg:6:time_period_by_feed"
+    assert float(period_s) == pytest.approx(1.0 / 0.74, rel=0.01)
+    assert "repeats every 1.351 s, otherwise at each feed" in swings.clause
+    assert pitch.choice == "pitch_cyclic:3"
+    assert found.heldout["circle"].after_um < MISSED * found.heldout["circle"].before_um
+
+
 def test_a_dead_band_is_described_and_drafted(tmp_path: Path) -> None:
     """The drive was made to fall behind above 12 mm/s only, backwards by 57 % of what it does forwards."""
     found = found_in("lags-above-a-speed")

@@ -42,6 +42,19 @@ def test_two_steps_of_one_thing_are_both_found(linear: Linear, readings: Reading
     )
 
 
+@pytest.mark.parametrize(("period_s", "other", "found"), [(0.83, 0.0, 1), (0.83, 0.8, 0), (9.7, 0.0, 0)])
+def test_what_shakes_at_one_feed_is_told_from_what_does_at_both(
+    linear: Linear, readings: Readings, period_s: float, other: float, found: int
+) -> None:
+    """Not what swings slower than a sweep lasts: by chance it does so at one feed or another."""
+    at_feed = np.where(readings.groups["feed"] == 1, 1.0, other)
+    shaken = 6.0 * at_feed * np.sin(2.0 * np.pi * readings.state["time_s"] / period_s)
+    shaking = replace(linear, residual=linear.residual + shaken)
+    assert len(_of(shaking, readings, "learned:reading:time_period_by_feed")) == found
+    periods = [each.hypothesis.variable.period for each in _of(shaking, readings, "learned:reading:time_period")]
+    assert periods[0] == pytest.approx(period_s, rel=0.01)
+
+
 def test_readings_without_noise_have_steps(linear: Linear, readings: Readings, port: Port) -> None:
     """What is pushed is then far above a reading's noise, by which sums of squares are lost to rounding."""
     pushes = replace(readings, ports=1e4 * readings.ports)
