@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from hexdbb.errors import RunError
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.number import with_best_number
-from hexdbb.evidence.proposals import periods
+from hexdbb.evidence.periods import periods
 from hexdbb.evidence.settling import predicts
 from hexdbb.evidence.trial import Member
 from hexdbb.evidence.tuned import around

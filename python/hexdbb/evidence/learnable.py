@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from hexdbb.evidence.proposals import Proposal
+from hexdbb.evidence.proposed import Proposal
 from hexdbb.evidence.readings import Readings
 from hexdbb.evidence.screen import Hypothesis
 from hexdbb.evidence.signatures import all_varying, varying

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from hexdbb.evidence.proposals import periods, proposals
+from hexdbb.evidence.periods import periods
+from hexdbb.evidence.proposals import proposals
 from hexdbb.evidence.screen import Hypothesis
 from hexdbb.evidence.signatures import all_varying
 from hexdbb.learned import Learned, part_of

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.evidence.homes import Homes
+from hexdbb.evidence.periods import vibrations
 from hexdbb.evidence.place import kin_of
-from hexdbb.evidence.proposals import proposals, vibrations
+from hexdbb.evidence.proposals import proposals
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
 from hexdbb.evidence.shortlist import better_shaped

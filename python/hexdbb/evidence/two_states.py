@@ -16,7 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.evidence.criteria import Criteria
-from hexdbb.evidence.proposals import InTime, Proposal
+from hexdbb.evidence.proposals import InTime
+from hexdbb.evidence.proposed import Proposal
 from hexdbb.evidence.readings import Linear, Readings
 from hexdbb.evidence.thinned import Thinned
 from hexdbb.learned import ALL, Learned, is_directed, two_states

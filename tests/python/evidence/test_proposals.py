@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.proposals import proposals, vibrations
+from hexdbb.evidence.periods import vibrations
+from hexdbb.evidence.proposals import proposals
 from hexdbb.evidence.readings import Linear, Readings, State
 from hexdbb.evidence.thinned import Thinned
 from hexdbb.learned import Learned
