@@ -106,7 +106,10 @@ def read_samples(samples: Path) -> dict[str, NDArray[np.float64]]:
         raise RuntimeError("the sampler lost servo periods (overrun)")
     # LinuxCNC may end while the last line is being written.
     lines = text[: text.rindex("\n")].splitlines()
-    table = np.loadtxt(lines)
+    try:
+        table = np.loadtxt(lines)
+    except ValueError as error:
+        raise RuntimeError(f"the sampler lost servo periods (a line that is not whole): {error}") from None
     if np.any(np.diff(table[:, 0]) != 1):
         raise RuntimeError("the sampler lost servo periods (numbers with gaps)")
     return dict(zip(PINS, table[:, 1:].T, strict=True))
