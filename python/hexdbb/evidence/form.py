@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine, Fitted
 from hexdbb.evidence.form_functions import Beside, FormFunctions, FormsAboutFit
-from hexdbb.evidence.homes import Home, Homes, discrepancy
+from hexdbb.evidence.homes import Home, Homes, at_each, discrepancy
+from hexdbb.evidence.laws_at_each import LawsAtEach
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.signatures import varying
@@ -62,17 +63,22 @@ class Forms:
         self._homes: dict[tuple[str, tuple[float, ...]], dict[tuple[str, str], list[Home]]] = {}
         """Homes of the values of each effect, by its shape: of its elements and names."""
         self._functions = FormFunctions(engine.readings, criteria)
+        self.laws = LawsAtEach(engine, homes, self._functions)
 
     def beside(self, linear: Linear, fitted: Fitted, known: Known) -> tuple[Linear, Form]:
         """Return a linearisation with the discrepancy of an effect among its own values, and how large it is."""
         size_mm, groups = self._size(fitted, known)
+        law = self.laws.of(known, fitted.model)
+        size_mm = size_mm if law is None else max(size_mm, self.laws.rms_mm(linear, fitted, known, law))
         best = self._chosen(linear, groups, size_mm) if groups and size_mm > 0.0 else None
         if best is None:
             return linear, Form(0.0, 0.0, ())
         functions, fraction = tuple(each.name for each in best.functions.functions), best.found.size
         if fraction <= 0.0:
             return linear, Form(0.0, 0.0, functions)
-        deviation = self._functions.rms_mm(best) * float(np.sqrt(best.seen)) / size_mm
+        is_of_law = law is not None and {law.shared, *at_each(law.shared)} <= {*best.functions.functions}
+        rms_mm = self.laws.deviation_mm(best, law) if law is not None and is_of_law else self._functions.rms_mm(best)
+        deviation = rms_mm * float(np.sqrt(best.seen)) / size_mm
         if deviation > self.criteria.form_limit and not self._are_sizes(linear, known):
             # At hundreds of times the noise no prior holds a discrepancy back: what differs so much is another cause.
             return linear, Form(0.0, 0.0, ())
@@ -106,10 +112,6 @@ class Forms:
     def with_columns(self, linear: Linear, form: Form) -> Linear:
         """Return a linearisation with the functions of a form among its own values."""
         return linear.wider(self._functions.columns(form.coefficients))
-
-    def table(self, function: Learned) -> Floats:
-        """Return what a function does to the readings, a column for each of its splines, shape (n, columns)."""
-        return np.asarray(self._functions.signature(function).table, np.float64)
 
     def _chosen(self, linear: Linear, groups: Sequence[tuple[Learned, ...]], size_mm: float) -> Beside | None:
         """Choose functions by evidence, a variable at a time: one more only where the readings ask for it."""

@@ -9,7 +9,7 @@ cause in other words, and how large the effect's push is in mm.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -111,6 +111,23 @@ class Homes:
     def around_each(self, signatures: Floats) -> list[list[Home]]:
         """Return the hypotheses in whose functions effects' forms may be wrong: those that nearly contain them."""
         return self._near(signatures, self.criteria.form_home, len(self._spaces))
+
+    def shared_by(self, signature: Floats, ports: Collection[str]) -> Learned | None:
+        """Return the function at some ports that six elements share and that says a signature best, shape (n,).
+
+        Whatever of it geometry imitates: of legs that grow alike nothing else is left. None where none says it.
+        """
+        whole = signature[self.rows]
+        missed: dict[Learned, float] = {}
+        for (space, _), first in zip(self._spaces, self._first, strict=True):
+            hypothesis = space.hypothesis
+            if is_shared(hypothesis) and hypothesis.port in ports and hypothesis.variable.columns > 1:
+                table = self._tables[:, first : first + space.table.shape[1]].astype(np.float64)
+                law, *_ = np.linalg.lstsq(table, whole, rcond=None)
+                missed[hypothesis] = float(np.sum((whole - table @ law) ** 2))
+        best = min(missed, key=lambda each: missed[each], default=None)
+        most = (1.0 - self.criteria.form_own) * float(whole @ whole)
+        return best if best is not None and missed[best] <= most else None
 
     def _near(self, signatures: Floats, least: float, count: int) -> list[list[Home]]:
         """Return the nearest of the first so many hypotheses."""

@@ -28,7 +28,6 @@ from hexdbb.evidence.heldout import first_error
 from hexdbb.evidence.homes import Homes
 from hexdbb.evidence.known_together import or_known_together
 from hexdbb.evidence.last_resort import LAST_RESORTS, tried_last
-from hexdbb.evidence.laws_at_each import with_laws_at_each
 from hexdbb.evidence.learnable import Learnable
 from hexdbb.evidence.needed import best_of
 from hexdbb.evidence.node import Node
@@ -204,12 +203,12 @@ class Search:
         The law of an effect that all legs share may be of another size at each.
         """
         if id(trial.model) not in self._by_formulas:
-            self._by_formulas[id(trial.model)] = left_by_formulas(trial.forms, with_laws_at_each(self.trials, trial))
+            self._by_formulas[id(trial.model)] = left_by_formulas(trial.forms, self.trials.with_laws_at_each(trial))
         return self._by_formulas[id(trial.model)]
 
     def left_by_formula(self, trial: Trial, form: Form | None) -> float:
         """Return the same without the functions of one form alone."""
-        return left_by_formulas([form], with_laws_at_each(self.trials, trial, form))
+        return left_by_formulas([form], self.trials.with_laws_at_each(trial, form))
 
     def same_kind(self, one: Hypothesis, other: Hypothesis) -> bool:
         """Check whether two hypotheses are one cause in different words."""

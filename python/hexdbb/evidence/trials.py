@@ -161,6 +161,22 @@ class Trials:
         self._linear.move_to_end(key)
         return self._linear[key]
 
+    def with_laws_at_each(self, trial: Trial, only: Form | None = None) -> Linear:
+        """Return a trial's linearisation with six sizes of the law of each effect that elements share.
+
+        Parameters
+        ----------
+        trial : Trial
+        only : Form, optional
+            Of the one effect that is asked for; of all where not given.
+        """
+        linear = self.linear(trial)
+        for member, form in zip(trial.members, trial.forms, strict=True):
+            if isinstance(member.hypothesis, Known) and (only is None or form is only):
+                law = self.forms.laws.of(member.hypothesis, trial.model)
+                linear = linear if law is None else linear.wider(law.differences)
+        return linear
+
     def _change(self, linear: Linear) -> Floats:
         """Return the change of all values that leads to the best of all rows."""
         return Sums(linear, self.engine.readings, ()).whole.own_values()
@@ -236,8 +252,10 @@ class Trials:
 
     def _about(self, members: tuple[Member, ...], fitted: Fitted) -> Trial:
         """Weigh members about their fit, and keep its linearisation."""
-        linear = fitted.linear
         known = [each.hypothesis for each in members if isinstance(each.hypothesis, Known)]
+        for each in known:
+            fitted = self.forms.laws.with_best_shape(fitted, each)
+        linear = fitted.linear
         linear, found = self._with_forms(linear, fitted, [*self.present, *known])
         present = [(each.name, found[each]) for each in self.present]
         forms = [found[each.hypothesis] if isinstance(each.hypothesis, Known) else None for each in members]
