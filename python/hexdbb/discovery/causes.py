@@ -227,7 +227,7 @@ def _cause(search: Search, node: Node, found: Found, share: float, models: _Mode
         assert models.result is not None
         effect, elements = hypothesis.effect, hypothesis.elements
         values = _values(models.known, models.result, effect, elements)
-        clause = effect_clause(models.known.info(effect), values)
+        clause = effect_clause(models.known.info(effect), _as_they_differ(search, node, hypothesis, values))
     return Cause(
         choice=choice_of(hypothesis),
         effect=effect,
@@ -279,6 +279,20 @@ def _values(model: Model, result: _core.FitResult, effect: str, elements: Sequen
             value, sigma = float(model.values[index]) * factor, float(spread[index]) * factor
             rows.append(Size(each.element, each.name, value, sigma, shown_unit(each.unit)))
     return tuple(rows)
+
+
+def _as_they_differ(search: Search, node: Node, known: Known, values: tuple[Size, ...]) -> tuple[Size, ...]:
+    """Return the values to tell of an effect that legs share: those beside which the legs differ.
+
+    Geometry takes what they share, and one value for all, fitted alone, is of either sign.
+    """
+    if search.trials.forms.laws.of(known, node.trial.model) is None:
+        return values
+    model = node.trial.model
+    parameters = zip(model.parameters(), model.values, strict=True)
+    there = {(each.effect, each.element, each.name): (value, each.unit) for each, value in parameters}
+    found = [(each, *there[known.effect, each.element, each.name]) for each in values]
+    return tuple(replace(each, value=float(value) * shown_factor(unit)) for each, value, unit in found)
 
 
 def _next_test(search: Search, found: Found, cause: Cause, model: Model) -> NextTest | None:
