@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 from tests.foreign_records import samples_of
 
 from hexdbb.diagnosis import noise_of
 from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.evidence.engine import Engine
+from hexdbb.evidence.fits import fitted
 from hexdbb.evidence.formula import left_by_formulas
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.search import Search
@@ -49,3 +51,19 @@ def test_six_sizes_of_one_law_are_no_form(search: Search, trial: Trial) -> None:
         linear = search.trials.linear(trial)
         assert form is not None
         assert search.left_by_formula(trial, form) == pytest.approx(left_by_formulas([form], linear))
+
+
+def test_the_law_is_sought_with_six_sizes_of_it(search: Search) -> None:
+    """Legs grew with a time constant of 578 s, unequal by a tenth, beside a play and a pitch error."""
+    known = Known("leg_thermal", ("1",), True)
+    alone = fitted(search.engine, (Member(known),))
+    found = search.trials.forms.laws.with_best_shape(alone, known)
+    values = {each.name: value for each, value in zip(found.model.parameters(), found.model.values, strict=True)}
+    assert 1800.0 * np.exp(values["log_time"]) == pytest.approx(578.0, rel=0.1)
+    assert values["per_time"] > 0.0
+    assert "log_time" not in {found.model.parameters()[place].name for place in found.free}
+
+
+def test_what_elements_do_not_share_has_no_law(search: Search, trial: Trial) -> None:
+    for known in (Known("backlash", ("4",)), Known("pitch_cyclic", ("6",))):
+        assert search.trials.forms.laws.of(known, trial.model) is None
