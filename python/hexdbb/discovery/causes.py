@@ -286,7 +286,8 @@ def _as_they_differ(search: Search, node: Node, known: Known, values: tuple[Size
 
     Geometry takes what they share, and one value for all, fitted alone, is of either sign.
     """
-    if search.trials.forms.laws.of(known, node.trial.model) is None:
+    form = node.trial.forms[node.hypotheses.index(known)]
+    if form is None or form.law is None:
         return values
     model = node.trial.model
     parameters = zip(model.parameters(), model.values, strict=True)

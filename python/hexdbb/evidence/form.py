@@ -16,7 +16,7 @@ from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine, Fitted
 from hexdbb.evidence.form_functions import Beside, FormFunctions, FormsAboutFit
 from hexdbb.evidence.homes import Home, Homes, at_each, discrepancy
-from hexdbb.evidence.laws_at_each import LawsAtEach
+from hexdbb.evidence.laws_at_each import Law, LawsAtEach
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.signatures import varying
@@ -44,6 +44,8 @@ class Form:
     first: int = 0
     is_seen: bool = False
     is_odd: bool = False
+    law: Law | None = field(default=None, repr=False, compare=False)
+    """That of an effect which elements share, where they differ as those of one make do."""
     coefficients: tuple[tuple[Learned, Floats], ...] = field(default=(), repr=False, compare=False)
     """The functions, and their coefficients for one prior standard deviation along each direction (a column each)."""
 
@@ -68,8 +70,11 @@ class Forms:
     def beside(self, linear: Linear, fitted: Fitted, known: Known) -> tuple[Linear, Form]:
         """Return a linearisation with the discrepancy of an effect among its own values, and how large it is."""
         size_mm, groups = self._size(fitted, known)
-        law = self.laws.of(known, fitted.model)
-        size_mm = size_mm if law is None else max(size_mm, self.laws.rms_mm(linear, fitted, known, law))
+        law, of_law_mm = self.laws.of(known, fitted.model), 0.0
+        if law is not None:
+            of_law_mm = self.laws.rms_mm(linear, fitted, known, law)
+            law = law if of_law_mm > 0.0 else None
+        size_mm = max(size_mm, of_law_mm)
         best = self._chosen(linear, groups, size_mm) if groups and size_mm > 0.0 else None
         if best is None:
             return linear, Form(0.0, 0.0, ())
@@ -85,7 +90,7 @@ class Forms:
         columns, first = best.factor.shape[1], linear.own.shape[1]
         is_seen = self._is_seen(fitted, known)
         is_odd = deviation > (self.criteria.form_as_seen if is_seen else self.criteria.form_named)
-        form = Form(fraction, deviation, functions, columns, first, is_seen, is_odd, best.coefficients)
+        form = Form(fraction, deviation, functions, columns, first, is_seen, is_odd, law, best.coefficients)
         return self.with_columns(linear, form), form
 
     def _is_seen(self, fitted: Fitted, known: Known) -> bool:

@@ -29,6 +29,10 @@ Floats = NDArray[np.float64]
 FINER = (0.25, 0.12, 0.06)
 """Steps, in prior standard deviations, by which a shape is sought about the best of a grid: a time to a twentieth."""
 
+UNLIKE = 0.4
+"""Standard deviation of sizes over their mean, up to which elements are of one make: they differ by up to a third
+(`alike.py`), and readings tell sizes to a tenth."""
+
 
 @dataclass(frozen=True, eq=False)
 class Law:
@@ -102,12 +106,14 @@ class LawsAtEach:
         if every[best] < self._explains(fitted.linear, law) + criteria.detect_nats:
             return fitted
         held = model.with_values(np.where(shape, best * model.prior_sigma, model.values))
-        return self._as_they_differ(self._engine.fit(held.with_free(held.free & ~shape)), known)
+        found = self._engine.fit(held.with_free(held.free & ~shape))
+        moved = self._as_they_differ(found, known)
+        return fitted if moved is found else moved
 
     def _as_they_differ(self, fitted: Fitted, known: Known) -> Fitted:
         """Return a fit moved to the values that are best beside six sizes, which the form has: of either sign else."""
         law = self.of(known, fitted.model)
-        if law is None:
+        if law is None or not _are_of_one_make(self._sizes(fitted.linear, fitted, known, law)):
             return fitted
         change = self._values(fitted.linear.wider(law.differences))[: len(fitted.free)]
         values = fitted.model.values.copy()
@@ -115,14 +121,20 @@ class LawsAtEach:
         return self._engine.linearised(fitted.model.with_values(values))
 
     def rms_mm(self, linear: Linear, fitted: Fitted, known: Known, law: Law) -> float:
-        """Return the root mean square of what an effect pushes at six elements, as they differ."""
+        """Return the root mean square of what an effect pushes at six elements; 0 where they differ too much for it."""
+        sizes = self._sizes(linear, fitted, known, law)
+        unit_mm = self._functions.signature(law.shared).rms_mm(law.coefficients)
+        return float(np.sqrt(np.mean(sizes**2))) * unit_mm if _are_of_one_make(sizes) else 0.0
+
+    def _sizes(self, linear: Linear, fitted: Fitted, known: Known, law: Law) -> Floats:
+        """Return the sizes of an effect at six elements, shape (6,), in prior standard deviations of its value."""
         parameters = fitted.model.parameters()
         names = [(parameters[place].effect, parameters[place].name) for place in fitted.free]
         common = names.index((known.effect, law.parameter))
         values = self._values(linear.wider(law.differences))
         unit = fitted.prior_sigma[common] / fitted.model.prior_sigma[fitted.free[common]]
-        sizes = unit * (linear.standing[common] + values[common]) + DIFFERENCES[-1] * values[-law.columns.shape[1] :]
-        return float(np.sqrt(np.mean(sizes**2))) * self._functions.signature(law.shared).rms_mm(law.coefficients)
+        alike = unit * (linear.standing[common] + values[common])
+        return np.asarray(alike + DIFFERENCES[-1] * values[-law.columns.shape[1] :], np.float64)
 
     def deviation_mm(self, beside: Beside, law: Law) -> float:
         """Return the root mean square of functions beside an effect less what is its law, of another size at each."""
@@ -154,6 +166,14 @@ class LawsAtEach:
         law, *_ = np.linalg.lstsq(np.asarray(self._functions.signature(shared).table, np.float64), pushed, rcond=None)
         columns = [self._functions.signature(each).table @ law for each in at_each(shared)]
         return Law(shared, whose[most][2], np.asarray(law, np.float64), np.stack(columns, axis=1))
+
+
+def _are_of_one_make(sizes: Floats) -> bool:
+    """Check that an effect is of one sign, and no more unlike at its elements than those of one make are.
+
+    A hose that pulled at the platform was legs that give by next to nothing, each by much more or less.
+    """
+    return float(np.std(sizes)) <= UNLIKE * abs(float(np.mean(sizes)))
 
 
 def _beyond(values: Floats, law: Floats, square: Floats) -> Floats:

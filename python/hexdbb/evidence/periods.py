@@ -133,10 +133,15 @@ def _by_feed(found: Proposal, weighted: Floats, answers: Floats, readings: Readi
     if min(float(np.ptp(time_s[sweep == each])) for each in np.unique(sweep)) < LEAST_TURNS * period_s:
         return
     wave = np.exp(2j * np.pi * time_s / period_s)[:, None]
-    sizes = [
-        float(np.linalg.norm(np.sum(weighted[rows] * wave[rows], axis=0) / np.sum(answers[rows] ** 2, axis=0)))
-        for rows in (feed == each for each in np.unique(feed))
-    ]
+    sums = np.column_stack([weighted * wave, answers**2])
+    # Sweep by sweep: over all of them a frequency that is a little off is out of step.
+    found_at: dict[int, list[Floats]] = {}
+    for one, each in {*zip(feed.tolist(), sweep.tolist(), strict=True)}:
+        found_at.setdefault(one, []).append(np.abs(np.sum(sums[(feed == one) & (sweep == each)], axis=0)))
+    sizes = []
+    for every in found_at.values():
+        waves, squares = np.split(np.sum(every, axis=0), 2)
+        sizes.append(float(np.linalg.norm(waves / squares)))
     if min(sizes) < ONE_FEED * max(sizes):
         hypothesis = replace(found.hypothesis, variable=by_feed(found.hypothesis.variable))
         yield replace(found, hypothesis=hypothesis)

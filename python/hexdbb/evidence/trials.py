@@ -171,10 +171,9 @@ class Trials:
             Of the one effect that is asked for; of all where not given.
         """
         linear = self.linear(trial)
-        for member, form in zip(trial.members, trial.forms, strict=True):
-            if isinstance(member.hypothesis, Known) and (only is None or form is only):
-                law = self.forms.laws.of(member.hypothesis, trial.model)
-                linear = linear if law is None else linear.wider(law.differences)
+        for form in trial.forms:
+            if form is not None and form.law is not None and (only is None or form is only):
+                linear = linear.wider(form.law.differences)
         return linear
 
     def _change(self, linear: Linear) -> Floats:
@@ -280,13 +279,16 @@ class Trials:
     def _with_forms(self, linear: Linear, fitted: Fitted, every: Sequence[Known]) -> tuple[Linear, dict[Known, Form]]:
         """Return a linearisation with the discrepancies of some effects, and these.
 
-        What one effect's form leaves, that of one asked before it had to describe: each is asked for again beside the
-        others, until all stand beside those beside which they were found.
+        What one effect's form leaves, that of one asked before it had to describe: a form larger than most, or too
+        large to be one, is asked for again beside the others, until all stand beside those beside which they were
+        found. A small one is left: asked again, a gain's took a free function of time.
         """
         forms: dict[Known, Form] = {}
         alone, asked = linear, dict[Known, list[tuple[str, ...]]]()
-        for _ in range(FORM_ROUNDS):
+        for again in range(FORM_ROUNDS):
             for each in every:
+                if again and forms[each].functions and forms[each].deviation <= self.criteria.form_sigma:
+                    continue
                 others = [other for other in forms if other is not each and forms[other].columns]
                 functions = [forms[other].functions for other in others]
                 if asked.get(each) == functions:
