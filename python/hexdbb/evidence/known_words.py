@@ -17,6 +17,7 @@ from hexdbb.evidence.settling import (
     explained_by_formulas,
     explains_nearly,
     is_doubtful,
+    is_its_formula,
     misses_most,
     must_explain,
 )
@@ -145,7 +146,7 @@ def _is_elsewhere(search: Search, node: Node, learned: Learned) -> bool:
     """
     known, *others = node.hypotheses
     is_elsewhere = not others and isinstance(known, Known) and not acts_there(search, known, learned)
-    return is_elsewhere and explained_by_formulas(search, node) < search.criteria.form_explains
+    return is_elsewhere and not is_its_formula(search, node)
 
 
 def acts_there(search: Search, known: Known, learned: Learned) -> bool:
