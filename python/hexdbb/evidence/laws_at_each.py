@@ -158,6 +158,8 @@ class LawsAtEach:
 
     def _made(self, known: Known, model: Model) -> Law | None:
         table, whose = self._engine.absent.signatures_about_start(known.effect, model)
+        if not table.shape[1]:  # the model has had it
+            return None
         most = int(np.argmax(np.sum(table**2, axis=0)))
         pushed = table[:, most]
         shared = self._homes.shared_by(pushed, self._engine.absent.ports(known.effect))

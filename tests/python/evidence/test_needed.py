@@ -276,22 +276,30 @@ def test_known_effects_for_sure_by_formulas_are_given_up_for_no_function(
 class BesideLater:
     """Forms of which the first is too large for its effect until the second stands beside it."""
 
+    def __init__(self, deviation: float) -> None:
+        self.deviation = deviation
+
+    def with_columns(self, linear: Linear, form: Form) -> Linear:
+        return replace(linear, own=np.hstack([linear.own, np.ones((len(linear.own), form.columns))]))
+
     def beside(self, linear: Linear, fitted: Any, known: Known) -> tuple[Linear, Form]:
         first = linear.own.shape[1]
         if known.effect == "bar_drift" and first == 1:
             return linear, Form(0.0, 0.0, ())
         wider = replace(linear, own=np.hstack([linear.own, np.ones((len(linear.own), 2))]))
-        return wider, Form(0.1, 0.2, ("learned:reading:time",), 2, first)
+        return wider, Form(0.1, self.deviation, ("learned:reading:time",), 2, first)
 
 
-def test_a_form_too_large_at_first_is_asked_for_again_beside_the_others() -> None:
+@pytest.mark.parametrize(("deviation", "firsts"), [(0.1, [3, 1]), (0.2, [1, 3])], ids=["as most are", "larger"])
+def test_a_form_too_large_at_first_is_asked_for_again_beside_the_others(deviation: float, firsts: list[int]) -> None:
+    """So is one larger than most, beside which it was."""
     trials = Trials.__new__(Trials)
-    trials.forms = BesideLater()  # type: ignore[assignment]
+    trials.forms, trials.criteria = BesideLater(deviation), DEFAULT  # type: ignore[assignment]
     linear = Linear(np.zeros(4), np.ones((4, 1)), np.zeros(1))
     known = [DRIFT.hypothesis, GAIN.hypothesis]
     wider, found = trials._with_forms(linear, None, known)  # type: ignore[arg-type]
     assert wider.own.shape[1] == 5
-    assert [found[each].first for each in found] == [3, 1]
+    assert [found[each].first for each in known] == firsts
 
 
 @pytest.mark.parametrize(
