@@ -76,8 +76,11 @@ class LawsAtEach:
         self._known: dict[tuple[str, tuple[float, ...]], Law | None] = {}
 
     def of(self, known: Known, model: Model) -> Law | None:
-        """Return the law of an effect of a model, by its shape there; None of one that elements do not share."""
-        if not known.is_whole or len(known.elements) != 1:
+        """Return the law of an effect of a model, by its shape there; None of one that elements do not share.
+
+        A gauge that is read late is one thing for all sliders, and belongs to the set-up.
+        """
+        if not known.is_whole or len(known.elements) != 1 or self._engine.base.info(known.effect).is_set_up:
             return None
         parameters = zip(model.parameters(), model.values, strict=True)
         shape = tuple(float(value) for each, value in parameters if each.effect == known.effect and each.is_shape)
@@ -130,6 +133,8 @@ class LawsAtEach:
         """Return the sizes of an effect at six elements, shape (6,), in prior standard deviations of its value."""
         parameters = fitted.model.parameters()
         names = [(parameters[place].effect, parameters[place].name) for place in fitted.free]
+        if (known.effect, law.parameter) not in names:  # it is held
+            return np.zeros(law.columns.shape[1])
         common = names.index((known.effect, law.parameter))
         values = self._values(linear.wider(law.differences))
         unit = fitted.prior_sigma[common] / fitted.model.prior_sigma[fitted.free[common]]

@@ -65,5 +65,6 @@ def test_the_law_is_sought_with_six_sizes_of_it(search: Search) -> None:
 
 
 def test_what_elements_do_not_share_has_no_law(search: Search, trial: Trial) -> None:
-    for known in (Known("backlash", ("4",)), Known("pitch_cyclic", ("6",))):
+    late = Known("sample_delay", ("1",), True)  # one thing for all sliders
+    for known in (Known("backlash", ("4",)), Known("pitch_cyclic", ("6",)), late):
         assert search.trials.forms.laws.of(known, trial.model) is None
