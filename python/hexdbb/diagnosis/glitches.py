@@ -43,7 +43,7 @@ SELDOM = 0.25
 """Part of a drive's other reversals up to which something shows at none of them: a sample may miss what is shorter than
 the time between two, but not three times of four; glitches show at one in some hundreds."""
 FEW_REVERSALS = 4
-"""Other reversals of a drive of which as many must be seen to say so."""
+"""Fewest other reversals that say so: of three, one that a sample missed would decide."""
 JUMP = 1.5
 """Distance from the median over the jump of the prediction at a reversal up to which a reading was taken meanwhile: it
 lies between where it was and where it will be, but for noise, and what the median takes of either."""

@@ -17,7 +17,7 @@ from hexdbb.evidence.settling import (
     explained_by_formulas,
     explains_nearly,
     is_doubtful,
-    is_its_formula,
+    leaves_what_forms_do,
     misses_most,
     must_explain,
 )
@@ -146,7 +146,7 @@ def _is_elsewhere(search: Search, node: Node, learned: Learned) -> bool:
     """
     known, *others = node.hypotheses
     is_elsewhere = not others and isinstance(known, Known) and not acts_there(search, known, learned)
-    return is_elsewhere and not is_its_formula(search, node)
+    return is_elsewhere and not leaves_what_forms_do(search, node)
 
 
 def acts_there(search: Search, known: Known, learned: Learned) -> bool:

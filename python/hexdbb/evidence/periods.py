@@ -19,6 +19,7 @@ from hexdbb.learned import ALL, Learned, periodic
 from hexdbb.learned.numbered import by_feed
 from hexdbb.machine import MachineFile
 from hexdbb.predictors.periods import COARSE, FINE, LEAST_TURNS, Grid, strongest_frequency
+from hexdbb.samples.distinct import distinct_rows
 
 Floats = NDArray[np.float64]
 
@@ -127,21 +128,26 @@ def _by_feed(found: Proposal, weighted: Floats, answers: Floats, readings: Readi
         Residual times what a push does to the readings, and that alone.
     readings : Readings
     """
-    time_s, feed, sweep = readings.state["time_s"], readings.groups["feed"], readings.groups["sweep"]
+    time_s, feed = readings.state["time_s"], readings.groups["feed"]
     period_s = found.hypothesis.variable.period
+    first, sweep = distinct_rows(feed, readings.groups["sweep"])
+    begins, ends = np.full(len(first), np.inf), np.full(len(first), -np.inf)
+    np.minimum.at(begins, sweep, time_s)
+    np.maximum.at(ends, sweep, time_s)
     # Slower than a sweep no motor excites it: what swings in minutes is by chance at one feed or another.
-    if min(float(np.ptp(time_s[sweep == each])) for each in np.unique(sweep)) < LEAST_TURNS * period_s:
+    if float(np.min(ends - begins)) < LEAST_TURNS * period_s:
         return
-    wave = np.exp(2j * np.pi * time_s / period_s)[:, None]
-    sums = np.column_stack([weighted * wave, answers**2])
+    phase = 2.0 * np.pi * time_s / period_s
     # Sweep by sweep: over all of them a frequency that is a little off is out of step.
-    found_at: dict[int, list[Floats]] = {}
-    for one, each in {*zip(feed.tolist(), sweep.tolist(), strict=True)}:
-        found_at.setdefault(one, []).append(np.abs(np.sum(sums[(feed == one) & (sweep == each)], axis=0)))
-    sizes = []
-    for every in found_at.values():
-        waves, squares = np.split(np.sum(every, axis=0), 2)
-        sizes.append(float(np.linalg.norm(waves / squares)))
+    cosines, sines, squares = (
+        np.stack([np.bincount(sweep, each) for each in columns.T])
+        for columns in (weighted * np.cos(phase)[:, None], weighted * np.sin(phase)[:, None], answers**2)
+    )
+    waves, of = np.hypot(cosines, sines), feed[first]
+    sizes = [
+        float(np.linalg.norm(waves[:, of == each].sum(axis=1) / squares[:, of == each].sum(axis=1)))
+        for each in np.unique(of)
+    ]
     if min(sizes) < ONE_FEED * max(sizes):
         hypothesis = replace(found.hypothesis, variable=by_feed(found.hypothesis.variable))
         yield replace(found, hypothesis=hypothesis)

@@ -106,7 +106,7 @@ def explained_by_formulas(search: Search, node: Node) -> float:
     return (search.root.trial.left - search.left_by_formulas(node.trial)) / max(search.root.trial.left - 1.0, 1e-9)
 
 
-def is_its_formula(search: Search, node: Node) -> bool:
+def leaves_what_forms_do(search: Search, node: Node) -> bool:
     """Check that formulas leave no more than forms do that are 20 % off: a joint off its place left 0.03 of it.
 
     A ball with fourteen lobes left 0.09 of what a joint off its place by 0.25 mm explained of them.

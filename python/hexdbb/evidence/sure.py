@@ -12,7 +12,7 @@ from hexdbb.evidence.heldout import HeldOut
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.readings import ARC
 from hexdbb.evidence.screen import Known
-from hexdbb.evidence.settling import explained_by_formulas, is_complete, is_its_formula, leaves_room, missed
+from hexdbb.evidence.settling import explained_by_formulas, is_complete, leaves_room, leaves_what_forms_do, missed
 
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search
@@ -101,7 +101,7 @@ def _is_outdone_untested(search: Search, node: Node) -> bool:
     shares = [held.share for grouping, held in search.checked(node).heldout.items() if grouping not in (ARC, "lap")]
     if max(shares, default=0.0) < search.criteria.explained_min and any(each.after > each.before for each in missing):
         return True
-    own = search.kin.get(node.trial.names[0], set()) if is_its_formula(search, node) else set()
+    own = search.kin.get(node.trial.names[0], set()) if leaves_what_forms_do(search, node) else set()
     alone = (each for each in search.nodes if len(each.members) == 1 and not each.is_known)
     alone = (each for each in alone if each.trial.names[0] not in own)
     tested = (each for each in alone if not (each.trial.is_of_time or each.trial.refused) and is_complete(search, each))

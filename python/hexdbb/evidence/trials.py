@@ -293,10 +293,12 @@ class Trials:
                 functions = [forms[other].functions for other in others]
                 if asked.get(each) == functions:
                     continue
-                linear, asked[each] = alone, functions
-                for other in others:
-                    forms[other] = replace(forms[other], first=linear.own.shape[1])
-                    linear = self.forms.with_columns(linear, forms[other])
+                asked[each] = functions
+                if again:  # its own columns stand among the others'
+                    linear = alone
+                    for other in others:
+                        forms[other] = replace(forms[other], first=linear.own.shape[1])
+                        linear = self.forms.with_columns(linear, forms[other])
                 linear, forms[each] = self.forms.beside(linear, fitted, each)
         return linear, forms
 

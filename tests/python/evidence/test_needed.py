@@ -294,7 +294,8 @@ class BesideLater:
 def test_a_form_too_large_at_first_is_asked_for_again_beside_the_others(deviation: float, firsts: list[int]) -> None:
     """So is one larger than most, beside which it was."""
     trials = Trials.__new__(Trials)
-    trials.forms, trials.criteria = BesideLater(deviation), DEFAULT  # type: ignore[assignment]
+    trials.forms = BesideLater(deviation)  # type: ignore[assignment]
+    trials.criteria = DEFAULT
     linear = Linear(np.zeros(4), np.ones((4, 1)), np.zeros(1))
     known = [DRIFT.hypothesis, GAIN.hypothesis]
     wider, found = trials._with_forms(linear, None, known)  # type: ignore[arg-type]
