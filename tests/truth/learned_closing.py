@@ -22,7 +22,7 @@ from tests.truth.spread_plan import PACE, spread_plan
 from hexdbb.compensation import make_compensation
 from hexdbb.diagnosis import diagnose
 from hexdbb.discovery import discover
-from hexdbb.discovery.auto import without_needless
+from hexdbb.discovery.auto import predicts_better, without_needless
 from hexdbb.errors import InputError
 from hexdbb.ledger import add_effect
 from hexdbb.model import Model, new_model
@@ -44,8 +44,6 @@ MAX_CORRECTION_MM = 10.0
 steeply, and forms are up to three."""
 MOST_ROUNDS = 4
 """Verdicts asked for: two faults and what their forms leave."""
-PREDICTS = 0.98
-"""Part of the held-out error that is left at most where a form's function is kept: what gains less is noise's."""
 TIMES_NOISE = 10.0
 """What each fault leaves when geometry has been fitted, over the noise."""
 KNOWN = ("backlash", "gravity_sag", "pitch_cyclic", "servo_lag")
@@ -173,9 +171,7 @@ def _with(samples: Samples, model: Model, choices: Sequence[str], *, always: boo
     added = []
     for each in choices:
         wider = add_effect(samples, model, each).model
-        step = wider.ledger[-1]
-        predicts = (step.heldout_after_um or 0.0) < PREDICTS * (step.heldout_before_um or 0.0)
-        if always or predicts:
+        if always or predicts_better(wider):
             model = wider
             added.append(each)
     return model, added

@@ -153,9 +153,13 @@ def discover_all(
     progress: Callable[[str], None] = lambda _: None,
     *,
     matters_um: float | None = None,
+    forms: bool = False,
 ) -> Iterator[AutoStep | Discovery]:
-    """Add missing effects one by one until nothing is missing; yield every step, last of all the final verdict."""
-    return discovery.discover_all(table_of(measured), model, progress=progress, matters_um=matters_um)
+    """Add missing effects one by one until nothing is missing; yield every step, last of all the final verdict.
+
+    With `forms`, functions that describe how the machine's forms differ from the effects' are added as well.
+    """
+    return discovery.discover_all(table_of(measured), model, progress=progress, matters_um=matters_um, forms=forms)
 
 
 def draft_effect(found: Discovery, output: Path | str | None = None, *, overwrite: bool = False) -> Draft:

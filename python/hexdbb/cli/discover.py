@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import shlex
+from collections.abc import Iterable
 from pathlib import Path
 
 import click
@@ -20,7 +21,6 @@ from hexdbb.cli.shared_options import json_option, model_option, plot_option, pr
 from hexdbb.discovery import (
     AutoStep,
     Discovery,
-    Progress,
     closing_sentence,
     discover,
     discover_all,
@@ -28,8 +28,7 @@ from hexdbb.discovery import (
     require_draftable,
 )
 from hexdbb.files.atomic_file import refuse_existing, require_folder, write_text
-from hexdbb.model import Model, save_model
-from hexdbb.samples import Samples
+from hexdbb.model import save_model
 
 
 @click.command()
@@ -37,6 +36,12 @@ from hexdbb.samples import Samples
 @model_option("Model file.")
 @effects_option
 @click.option("--auto", is_flag=True, help="Add what is missing to the model file, effect after effect.")
+@click.option(
+    "--forms",
+    is_flag=True,
+    help="With --auto, add functions too that describe how the machine's forms differ from those of the effects found:"
+    " those by which circles left out are predicted better.",
+)
 @click.option(
     "--matters",
     "matters_um",
@@ -62,6 +67,7 @@ def command(
     model_path: Path,
     effects_path: Path | None,
     auto: bool,
+    forms: bool,
     matters_um: float | None,
     known_only: bool,
     draft_path: Path | None,
@@ -77,7 +83,7 @@ def command(
 
     The model file is not changed, unless by --auto: it adds what is known for sure and looks again, until nothing that
     matters is missing or the cause is not identified. An effect added earlier is taken out again where a later one
-    makes it needless.
+    makes it needless. With --forms it also adds what the forms of these effects leave.
 
     \b
     Examples:
@@ -87,6 +93,7 @@ def command(
       hexdbb discover today.parquet -m model.toml --matters 0.5
       hexdbb discover today.parquet -m model.toml --known-only
       hexdbb discover today.parquet -m model.toml --auto
+      hexdbb discover today.parquet -m model.toml --auto --forms
       hexdbb discover today.parquet -m model.toml --draft mine.py --plot pictures
     """
     if draft_path is not None:
@@ -95,6 +102,8 @@ def command(
         require_folder(folder)
     if auto and known_only:
         raise click.UsageError("--known-only: --auto asks for all hypotheses (expected one of the two)")
+    if forms and not auto:
+        raise click.UsageError("--forms: nothing is added without --auto (expected both)")
     if auto:
         refuse_existing(model_path, overwrite=True)
     model = existing_model(model_path, effects_path)
@@ -104,7 +113,8 @@ def command(
         samples = read_samples(records, messages)
         if auto:
             console = None if as_json else output_console()
-            steps, found = _automatic(samples, model, model_path, console, status.update, matters_um)
+            looks = discover_all(samples, model, progress=status.update, matters_um=matters_um, forms=forms)
+            steps, found = _automatic(looks, model_path, console)
         else:
             found = discover(samples, model, progress=status.update, matters_um=matters_um, known_only=known_only)
     closing = closing_sentence(steps, found) if auto else None
@@ -132,16 +142,11 @@ def _draw(found: Discovery, folder: Path, messages: Console) -> None:
 
 
 def _automatic(
-    samples: Samples,
-    model: Model,
-    model_path: Path,
-    console: Console | None,
-    progress: Progress,
-    matters_um: float | None,
+    looks: Iterable[AutoStep | Discovery], model_path: Path, console: Console | None
 ) -> tuple[list[AutoStep], Discovery]:
     """Add effects, the model file written and the step printed after each; return the steps and the last look."""
     steps: list[AutoStep] = []
-    for each in discover_all(samples, model, progress=progress, matters_um=matters_um):
+    for each in looks:
         if isinstance(each, Discovery):
             return steps, each
         save_model(each.diagnosis.model, model_path)

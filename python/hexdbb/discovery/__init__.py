@@ -1,6 +1,6 @@
 """Discovery: whether anything is missing from a model, and which effect it is."""
 
-from hexdbb.discovery.auto import AutoStep, closing_sentence, discover_all, is_needed, without_needless
+from hexdbb.discovery.auto import AutoStep, closing_sentence, discover_all, is_needed, predicts_better, without_needless
 from hexdbb.discovery.discover import Progress, absent_effects, discover
 from hexdbb.discovery.draft import Draft, draft_effect, require_draftable
 from hexdbb.discovery.form import CauseForm, form_of
@@ -28,6 +28,7 @@ __all__ = [
     "form_of",
     "is_needed",
     "likely_cause",
+    "predicts_better",
     "require_draftable",
     "require_usable_effects",
     "without_needless",

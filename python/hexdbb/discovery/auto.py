@@ -3,7 +3,8 @@
 Of one look all causes that are known for sure are added, the largest first. An early choice may have stood in for what
 a later one explains better; after every look each earlier one is therefore taken out on trial, and for good where the
 model without it has more evidence. An effect that the readings cannot tell from another is never added, nor is one that
-has been taken out before.
+has been taken out before. What the forms of the effects found leave is added on demand, as functions that describe
+them.
 """
 
 from __future__ import annotations
@@ -24,6 +25,9 @@ from hexdbb.samples import Samples
 MAX_LOOKS = 8
 """Looks after which nothing more is added: each adds up to four causes, and no machine has thirty."""
 
+PREDICTS = 0.98
+"""Part of the held-out error that is left at most where a form's function is kept: what gains less is noise's."""
+
 
 @dataclass(frozen=True)
 class AutoStep:
@@ -41,6 +45,7 @@ def discover_all(
     progress: Progress = lambda _: None,
     *,
     matters_um: float | None = None,
+    forms: bool = False,
 ) -> Iterator[AutoStep | Discovery]:
     """Add missing effects one after another.
 
@@ -54,6 +59,8 @@ def discover_all(
         Is told what is being done.
     matters_um : float, optional
         As for `discover`.
+    forms : bool
+        Whether functions that describe the forms of the effects are added too, once no other cause is missing.
 
     Yields
     ------
@@ -67,27 +74,56 @@ def discover_all(
         What `discover` and `hexdbb.ledger.add_effect` raise.
     """
     added: list[str] = []
-    taken_out: set[str] = set()
+    tried: set[str] = set()
+    described: set[str] = set()
+    """Effects beside which functions describe their forms: of the two the effect is what has a name."""
     for _ in range(MAX_LOOKS):
         found = discover(samples, model, candidates, progress, matters_um=matters_um)
         sure = [each.choice for each in found.causes if each.verdict == "effect"] if found.verdict == "effect" else []
-        choices = [each for each in sure if each not in taken_out]
-        if not choices:
+        choices = [each for each in sure if each not in tried]
+        refining = [each for each in _describing(found, choices) if each not in tried] if forms else []
+        before = model
+        described.update((choices or added) if refining else ())
+        earlier = [each for each in added if each not in described]
+        for step in _adding(samples, model, choices, refining, progress):
+            model = step.diagnosis.model
+            added.append(step.choice)
+            yield step
+        if model is before:
             yield found
             return
-        earlier = tuple(added)
-        for choice in choices:
-            progress(f"adding {choice}")
-            diagnosis = add_effect(samples, model, choice)
-            model = diagnosis.model
-            added.append(choice)
-            yield AutoStep("add", choice, diagnosis)
+        tried.update(refining)
         for step in without_needless(samples, model, earlier, progress):
             model = step.diagnosis.model
             added.remove(step.choice)
-            taken_out.add(step.choice)
+            tried.add(step.choice)
             yield step
     yield discover(samples, model, candidates, progress, matters_um=matters_um)
+
+
+def _describing(found: Discovery, choices: Sequence[str]) -> tuple[str, ...]:
+    """Return the functions that describe the forms of what was found: of what is added, else of what the model has."""
+    if not choices:
+        return found.refinements
+    return tuple(name for each in found.causes if each.choice in choices for name in each.refinements)
+
+
+def _adding(
+    samples: Samples, model: Model, choices: Sequence[str], refining: Sequence[str], progress: Progress
+) -> Iterator[AutoStep]:
+    """Add every choice; and of functions that describe forms those with which circles left out are predicted better."""
+    for each in (*choices, *refining):
+        progress(f"adding {each}")
+        diagnosis = add_effect(samples, model, each)
+        if each in choices or predicts_better(diagnosis.model):
+            model = diagnosis.model
+            yield AutoStep("add", each, diagnosis)
+
+
+def predicts_better(model: Model) -> bool:
+    """Check whether circles left out are predicted better since a model's last step; not where none could be."""
+    step = model.ledger[-1]
+    return (step.heldout_after_um or 0.0) < PREDICTS * (step.heldout_before_um or 0.0)
 
 
 def closing_sentence(steps: Sequence[AutoStep], last: Discovery) -> str:

@@ -18,6 +18,8 @@ from hexdbb.discovery.result import Candidate, Cause, NextTest, Verdict
 from hexdbb.discovery.sentences import likely_sentence, verdict_sentence
 from hexdbb.effects.words import effect_clause
 from hexdbb.errors import RunError
+from hexdbb.evidence.form import Form
+from hexdbb.evidence.function_at_each import function_at_each
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
@@ -26,7 +28,7 @@ from hexdbb.evidence.trial import Trial
 from hexdbb.evidence.verdict import Found
 from hexdbb.evidence.verdict import Verdict as Judged
 from hexdbb.learned import Learned
-from hexdbb.model import Choice, Model, Size
+from hexdbb.model import Choice, Model, Parameter, Size
 from hexdbb.units import shown_factor, shown_unit
 
 Floats = NDArray[np.float64]
@@ -218,6 +220,7 @@ class _Models:
 def _cause(search: Search, node: Node, found: Found, share: float, models: _Models) -> Cause:
     hypothesis = found.hypothesis
     values: tuple[Size, ...] = ()
+    refinements = found.refinements
     if isinstance(hypothesis, Learned):
         term = None if models.learned is None else models.learned.term(hypothesis.name)
         effect = hypothesis.name
@@ -226,8 +229,12 @@ def _cause(search: Search, node: Node, found: Found, share: float, models: _Mode
     else:
         assert models.result is not None
         effect, elements = hypothesis.effect, hypothesis.elements
-        values = _values(models.known, models.result, effect, elements)
-        clause = effect_clause(models.known.info(effect), _as_they_differ(search, node, hypothesis, values))
+        form = node.trial.forms[node.hypotheses.index(hypothesis)]
+        # Geometry takes what elements share, and one value for all, fitted to how they differ, is of either sign.
+        told_by = models.known if form is None or form.law is None else node.trial.model
+        values = _values(told_by, models.known, models.result, hypothesis)
+        clause = effect_clause(models.known.info(effect), values)
+        refinements = (*_law_at_each(search, form), *refinements)
     return Cause(
         choice=choice_of(hypothesis),
         effect=effect,
@@ -236,7 +243,7 @@ def _cause(search: Search, node: Node, found: Found, share: float, models: _Mode
         share=share,
         margin=float(min(found.margin, node.score - search.root.score)),
         form_deviation=found.deviation,
-        refinements=found.refinements,
+        refinements=refinements,
         function=_function(search, hypothesis),
         alike=tuple(dict.fromkeys(found.alike)),
         rivals=_rivals(search, node, found),
@@ -270,30 +277,27 @@ def _node_called(search: Search, name: str) -> Node | None:
     return next((each for each in search.nodes if " + ".join(each.trial.names) == name), None)
 
 
-def _values(model: Model, result: _core.FitResult, effect: str, elements: Sequence[str]) -> tuple[Size, ...]:
-    spread = np.sqrt(np.diag(result.covariance))
+def _values(told: Model, model: Model, result: _core.FitResult, own: Known) -> tuple[Size, ...]:
+    """Return the values that a model says of an effect, with the standard deviations of those of a fitted one."""
+    spread = dict(zip(map(_key, model.parameters()), np.sqrt(np.diag(result.covariance)), strict=True))
     rows = []
-    for index, each in enumerate(model.parameters()):
-        if each.effect == effect and each.element in elements:
+    for each, value in zip(told.parameters(), told.values, strict=True):
+        if each.effect == own.effect and each.element in own.elements:
             factor = shown_factor(each.unit)
-            value, sigma = float(model.values[index]) * factor, float(spread[index]) * factor
-            rows.append(Size(each.element, each.name, value, sigma, shown_unit(each.unit)))
+            sigma = float(spread[_key(each)]) * factor
+            rows.append(Size(each.element, each.name, float(value) * factor, sigma, shown_unit(each.unit)))
     return tuple(rows)
 
 
-def _as_they_differ(search: Search, node: Node, known: Known, values: tuple[Size, ...]) -> tuple[Size, ...]:
-    """Return the values to tell of an effect that legs share: those beside which the legs differ.
+def _key(parameter: Parameter) -> tuple[str, str, str]:
+    return parameter.effect, parameter.element, parameter.name
 
-    Geometry takes what they share, and one value for all, fitted alone, is of either sign.
-    """
-    form = node.trial.forms[node.hypotheses.index(known)]
-    if form is None or form.law is None:
-        return values
-    model = node.trial.model
-    parameters = zip(model.parameters(), model.values, strict=True)
-    there = {(each.effect, each.element, each.name): (value, each.unit) for each, value in parameters}
-    found = [(each, *there[known.effect, each.element, each.name]) for each in values]
-    return tuple(replace(each, value=float(value) * shown_factor(unit)) for each, value, unit in found)
+
+def _law_at_each(search: Search, form: Form | None) -> tuple[str, ...]:
+    """Return the function by which elements that share an effect have one size each, where they differ."""
+    if form is None or form.law is None or form.unlike < words.SMALLEST_DEVIATION:
+        return ()
+    return (function_at_each(search.trials.forms.functions, form.law).name,)
 
 
 def _next_test(search: Search, found: Found, cause: Cause, model: Model) -> NextTest | None:

@@ -16,7 +16,7 @@ from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine, Fitted
 from hexdbb.evidence.form_functions import Beside, FormFunctions, FormsAboutFit
 from hexdbb.evidence.homes import Home, Homes, at_each, discrepancy
-from hexdbb.evidence.laws_at_each import Law, LawsAtEach
+from hexdbb.evidence.laws_at_each import UNLIKE, Law, LawsAtEach, unlike
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.signatures import varying
@@ -46,6 +46,8 @@ class Form:
     is_odd: bool = False
     law: Law | None = field(default=None, repr=False, compare=False)
     """That of an effect which elements share, where they differ as those of one make do."""
+    unlike: float = field(default=0.0, repr=False, compare=False)
+    """By how much they differ: standard deviation of their sizes over the mean."""
     coefficients: tuple[tuple[Learned, Floats], ...] = field(default=(), repr=False, compare=False)
     """The functions, and their coefficients for one prior standard deviation along each direction (a column each)."""
 
@@ -64,17 +66,18 @@ class Forms:
         self.engine, self.homes, self.criteria = engine, homes, criteria
         self._homes: dict[tuple[str, tuple[float, ...]], dict[tuple[str, str], list[Home]]] = {}
         """Homes of the values of each effect, by its shape: of its elements and names."""
-        self._functions = FormFunctions(engine.readings, criteria)
-        self.laws = LawsAtEach(engine, homes, self._functions)
+        self.functions = FormFunctions(engine.readings, criteria)
+        self.laws = LawsAtEach(engine, homes, self.functions)
 
     def beside(self, linear: Linear, fitted: Fitted, known: Known) -> tuple[Linear, Form]:
         """Return a linearisation with the discrepancy of an effect among its own values, and how large it is."""
         size_mm, groups = self._size(fitted, known)
-        law, of_law_mm = self.laws.of(known, fitted.model), 0.0
+        law, differ = self.laws.of(known, fitted.model), 0.0
         if law is not None:
-            of_law_mm = self.laws.rms_mm(linear, fitted, known, law)
-            law = law if of_law_mm > 0.0 else None
-        size_mm = max(size_mm, of_law_mm)
+            sizes = self.laws.sizes(linear, fitted, known, law)
+            differ = unlike(sizes)
+            law = law if differ <= UNLIKE else None
+            size_mm = size_mm if law is None else max(size_mm, self.laws.rms_mm(law, sizes))
         best = self._chosen(linear, groups, size_mm) if groups and size_mm > 0.0 else None
         if best is None:
             return linear, Form(0.0, 0.0, ())
@@ -82,7 +85,7 @@ class Forms:
         if fraction <= 0.0:
             return linear, Form(0.0, 0.0, functions)
         is_of_law = law is not None and {law.shared, *at_each(law.shared)} <= {*best.functions.functions}
-        rms_mm = self.laws.deviation_mm(best, law) if law is not None and is_of_law else self._functions.rms_mm(best)
+        rms_mm = self.laws.deviation_mm(best, law) if law is not None and is_of_law else self.functions.rms_mm(best)
         deviation = rms_mm * float(np.sqrt(best.seen)) / size_mm
         if deviation > self.criteria.form_limit and not self._are_sizes(linear, known):
             # At hundreds of times the noise no prior holds a discrepancy back: what differs so much is another cause.
@@ -90,7 +93,7 @@ class Forms:
         columns, first = best.factor.shape[1], linear.own.shape[1]
         is_seen = self._is_seen(fitted, known)
         is_odd = deviation > (self.criteria.form_as_seen if is_seen else self.criteria.form_named)
-        form = Form(fraction, deviation, functions, columns, first, is_seen, is_odd, law, best.coefficients)
+        form = Form(fraction, deviation, functions, columns, first, is_seen, is_odd, law, differ, best.coefficients)
         return self.with_columns(linear, form), form
 
     def _is_seen(self, fitted: Fitted, known: Known) -> bool:
@@ -116,12 +119,12 @@ class Forms:
 
     def with_columns(self, linear: Linear, form: Form) -> Linear:
         """Return a linearisation with the functions of a form among its own values."""
-        return linear.wider(self._functions.columns(form.coefficients))
+        return linear.wider(self.functions.columns(form.coefficients))
 
     def _chosen(self, linear: Linear, groups: Sequence[tuple[Learned, ...]], size_mm: float) -> Beside | None:
         """Choose functions by evidence, a variable at a time: one more only where the readings ask for it."""
         functions = list(dict.fromkeys(each for group in groups for each in group))
-        about = FormsAboutFit(linear, self._functions, functions)
+        about = FormsAboutFit(linear, self.functions, functions)
         left, best = list(groups), None
         chosen: tuple[Learned, ...] = ()
         for _ in range(self.criteria.most_homes):

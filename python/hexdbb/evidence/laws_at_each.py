@@ -116,20 +116,18 @@ class LawsAtEach:
     def _as_they_differ(self, fitted: Fitted, known: Known) -> Fitted:
         """Return a fit moved to the values that are best beside six sizes, which the form has: of either sign else."""
         law = self.of(known, fitted.model)
-        if law is None or not _are_of_one_make(self._sizes(fitted.linear, fitted, known, law)):
+        if law is None or unlike(self.sizes(fitted.linear, fitted, known, law)) > UNLIKE:
             return fitted
         change = self._values(fitted.linear.wider(law.differences))[: len(fitted.free)]
         values = fitted.model.values.copy()
         values[fitted.free] += change * fitted.prior_sigma
         return self._engine.linearised(fitted.model.with_values(values))
 
-    def rms_mm(self, linear: Linear, fitted: Fitted, known: Known, law: Law) -> float:
-        """Return the root mean square of what an effect pushes at six elements; 0 where they differ too much for it."""
-        sizes = self._sizes(linear, fitted, known, law)
-        unit_mm = self._functions.signature(law.shared).rms_mm(law.coefficients)
-        return float(np.sqrt(np.mean(sizes**2))) * unit_mm if _are_of_one_make(sizes) else 0.0
+    def rms_mm(self, law: Law, sizes: Floats) -> float:
+        """Return the root mean square of what an effect pushes at six elements by sizes of its law."""
+        return float(np.sqrt(np.mean(sizes**2))) * self._functions.signature(law.shared).rms_mm(law.coefficients)
 
-    def _sizes(self, linear: Linear, fitted: Fitted, known: Known, law: Law) -> Floats:
+    def sizes(self, linear: Linear, fitted: Fitted, known: Known, law: Law) -> Floats:
         """Return the sizes of an effect at six elements, shape (6,), in prior standard deviations of its value."""
         parameters = fitted.model.parameters()
         names = [(parameters[place].effect, parameters[place].name) for place in fitted.free]
@@ -175,12 +173,13 @@ class LawsAtEach:
         return Law(shared, whose[most][2], np.asarray(law, np.float64), np.stack(columns, axis=1))
 
 
-def _are_of_one_make(sizes: Floats) -> bool:
-    """Check that an effect is of one sign, and no more unlike at its elements than those of one make are.
+def unlike(sizes: Floats) -> float:
+    """Return the standard deviation of an effect's sizes at its elements over their mean, infinite if that is zero.
 
     A hose that pulled at the platform was legs that give by next to nothing, each by much more or less.
     """
-    return float(np.std(sizes)) <= UNLIKE * abs(float(np.mean(sizes)))
+    mean = abs(float(np.mean(sizes)))
+    return float(np.std(sizes)) / mean if mean > 0.0 else np.inf
 
 
 def _beyond(values: Floats, law: Floats, square: Floats) -> Floats:

@@ -4,7 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from hexdbb.discovery import AutoStep, Discovery, closing_sentence, discover_all, is_needed, without_needless
+import pytest
+from tests.foreign_records import samples_of
+
+from hexdbb.diagnosis import noise_of
+from hexdbb.discovery import (
+    AutoStep,
+    Discovery,
+    closing_sentence,
+    discover_all,
+    is_needed,
+    predicts_better,
+    without_needless,
+)
 from hexdbb.ledger import add_effect
 from hexdbb.model import new_model
 from hexdbb.record import Record
@@ -28,6 +40,21 @@ def test_a_pair_is_found_one_after_the_other(measured: Callable[[str], Record]) 
     assert closing.startswith("found and added: ") and all(effect in closing for effect in effects)
     falls = [each.diagnosis.model.ledger[-1] for each in steps if isinstance(each, AutoStep)]
     assert falls[0].rms_before_um > falls[1].rms_before_um > falls[1].rms_after_um
+
+
+@pytest.mark.long
+def test_what_forms_leave_is_added_on_demand_and_the_error_falls_to_the_noise() -> None:
+    """Legs that grow unequally beside a play and a pitch error: with their formulas alone 5.8 um of 13.4 stayed."""
+    samples = samples_of("play-beside-growth")
+    noise_um = 1e3 * noise_of(samples).sigma_mm
+    *steps, last = discover_all(samples, new_model(samples.machine), forms=True)
+    assert isinstance(last, Discovery) and last.verdict == "none"
+    assert last.rms_before_um < 1.1 * noise_um
+    known = [each.choice for each in steps if isinstance(each, AutoStep) and not each.choice.startswith("learned:")]
+    assert sorted(known) == ["backlash:4", "leg_thermal", "pitch_cyclic:6"]  # none of them taken out again
+    functions = [each for each in steps if isinstance(each, AutoStep) and each.choice.startswith("learned:")]
+    assert any(each.choice.startswith("learned:leg:each:growth_settling@") for each in functions)
+    assert all(predicts_better(each.diagnosis.model) for each in functions)
 
 
 def test_a_machine_that_lacks_nothing_gets_nothing(measured: Callable[[str], Record]) -> None:

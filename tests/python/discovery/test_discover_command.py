@@ -95,6 +95,14 @@ def test_what_cannot_be_written_is_refused_before_anything_is_computed(folder: P
     assert sorted(folder.iterdir()) == before
 
 
+def test_forms_are_added_by_auto_alone(folder: Path) -> None:
+    before = (folder / "model.toml").read_bytes()
+    done = run(folder, "discover run.parquet -m model.toml --forms")
+    assert done.exit_code == 2
+    assert "--forms: nothing is added without --auto (expected both)" in done.stderr
+    assert (folder / "model.toml").read_bytes() == before
+
+
 def test_auto_adds_until_nothing_is_missing(folder: Path) -> None:
     found = printed(run(folder, "discover run.parquet -m model.toml --effects mine.py --auto --json"))
     jsonschema.validate(found, json_schema("discover"), jsonschema.Draft202012Validator)

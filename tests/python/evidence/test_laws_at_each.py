@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from tests.foreign_records import samples_of
@@ -11,9 +13,13 @@ from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.fits import fitted
 from hexdbb.evidence.formula import left_by_formulas
+from hexdbb.evidence.function_at_each import function_at_each
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.trial import Member, Trial
+from hexdbb.learned import Learned, number_of
+from hexdbb.learned.numbered import creeps
+from hexdbb.learned.places import EACH
 from hexdbb.model import new_model
 from hexdbb.samples.places import with_set_up_of
 
@@ -62,6 +68,20 @@ def test_the_law_is_sought_with_six_sizes_of_it(search: Search) -> None:
     assert 1800.0 * np.exp(values["log_time"]) == pytest.approx(578.0, rel=0.1)
     assert values["per_time"] > 0.0
     assert "log_time" not in {found.model.parameters()[place].name for place in found.free}
+
+
+def test_the_law_with_a_size_at_each_is_one_function(search: Search, trial: Trial) -> None:
+    form = trial.forms[1]
+    assert form is not None
+    assert form.law is not None
+    assert 0.05 < form.unlike < 0.2  # a tenth, in truth
+    function = function_at_each(search.trials.forms.functions, form.law)
+    assert (function.place, function.element, function.size) == ("leg", EACH, 6)
+    assert creeps(function.variable)
+    assert number_of(function.variable) == pytest.approx(578.0, rel=0.1)
+    # A law that is none of time stays free in its variable.
+    other = replace(form.law, shared=Learned.parse("learned:leg:all:leg_force"))
+    assert function_at_each(search.trials.forms.functions, other).name == "learned:leg:each:leg_force"
 
 
 def test_what_elements_do_not_share_has_no_law(search: Search, trial: Trial) -> None:
