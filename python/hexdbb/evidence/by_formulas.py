@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 from hexdbb.errors import RunError
 from hexdbb.evidence.admissible import errs_by_chance
-from hexdbb.evidence.form import Form
 from hexdbb.evidence.needed import needs_all
 from hexdbb.evidence.readings import ARC
 from hexdbb.evidence.settling import errs_as_expected, explained_by_formulas, is_complete, predicts
@@ -49,13 +48,12 @@ def _explain_so(search: Search, node: Node, each: float, together: float) -> boo
     """Check for known effects that explain so much by their formulas: each of what it does, all of what is missing."""
     if not node.is_known or explained_by_formulas(search, node) < together:
         return False
-    return all(
-        _explains_by_its_own(search, node, member, form, each)
-        for member, form in zip(node.members, node.trial.forms, strict=True)
-    )
+    return all(explains_by_its_own(search, node, member, each) for member in node.members)
 
 
-def _explains_by_its_own(search: Search, node: Node, member: Member, form: Form | None, least: float) -> bool:
+def explains_by_its_own(search: Search, node: Node, member: Member, least: float) -> bool:
+    """Check for an effect of a set that explains so much of what it does by its own formula."""
+    form = node.trial.forms[node.members.index(member)]
     try:
         others = search.trials.of(node.without(member)).left
     except RunError:

@@ -11,7 +11,7 @@ from hexdbb.evidence.node import Node
 from hexdbb.evidence.one_state import of_one_state
 from hexdbb.evidence.place import at_a_place_of_its_kin
 from hexdbb.evidence.predicting import predicts_better, stand_before
-from hexdbb.evidence.rivals_of_several import better_by_formula, one_instead
+from hexdbb.evidence.rivals_of_several import better_by_formula, of_one_size, one_instead
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.settling import NOTHING_LEFT, missed
@@ -70,6 +70,7 @@ def rivals_of(search: Search, node: Node, cause: Hypothesis) -> Rivals:
     if node.is_known and len(node.members) > 1:
         others += better_by_formula(search, node, cause)
         others += one_instead(search, node, cause)
+        others += of_one_size(search, node, cause)
     if isinstance(cause, Known):
         others += rivals_elsewhere(search, node, cause, alike)
         others += of_one_state(search, node, cause)

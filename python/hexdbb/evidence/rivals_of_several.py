@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from hexdbb.evidence.by_formulas import explain_nearly_all
+from hexdbb.evidence.all_elements import FEWEST
+from hexdbb.evidence.by_formulas import explain_nearly_all, explains_by_its_own
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.screen import Hypothesis
 from hexdbb.evidence.search import Search
@@ -30,6 +31,25 @@ def better_by_formula(search: Search, node: Node, cause: Hypothesis) -> list[str
         and search.left_by_formulas(other.trial) < min(left, 1.0 + of_forms(search, other.trial))
     )
     return list(dict.fromkeys(found))
+
+
+def of_one_size(search: Search, node: Node, cause: Hypothesis) -> list[str]:
+    """Return sets with an effect of one size in place of one that has a size at each of its elements.
+
+    On circles of one radius about one cup a gauge that drifts is six screws that grow, and these, each with its form,
+    have more evidence. The one must explain nearly all that it does by its own formula, and what the sets leave differ
+    by less than the noise.
+    """
+    found, most = [], max(node.trial.left, 1.0) + must_explain(search, node.trial)
+    for other, _ in sets_without(search, node, cause):
+        new = [each for each in other.members if each.hypothesis not in node.hypotheses]
+        if len(new) != 1 or len(other.members) != len(node.members) or node.faults - other.faults < FEWEST:
+            continue
+        says_it_all = is_complete(search, other) and other.trial.left < most
+        is_known = other.is_known and not has_effect(other, cause) and not search.checked(other).reasons
+        if is_known and says_it_all and explains_by_its_own(search, other, new[0], search.criteria.form_explains):
+            found.append(" + ".join(other.trial.names))
+    return found
 
 
 def one_instead(search: Search, node: Node, cause: Hypothesis) -> list[str]:
