@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb import _core
-from hexdbb.diagnosis import Sufficiency, evaluate_fit
+from hexdbb.diagnosis import Sufficiency
 from hexdbb.discovery import words
 from hexdbb.discovery.candidates import MAX_CHECKED, choice_of, shown_candidates
+from hexdbb.discovery.exact_fit import ExactFit, exactly
 from hexdbb.discovery.learning import with_learned
 from hexdbb.discovery.next_test import next_test
 from hexdbb.discovery.result import Candidate, Cause, NextTest, Verdict
@@ -28,8 +28,7 @@ from hexdbb.evidence.trial import Trial
 from hexdbb.evidence.verdict import Found
 from hexdbb.evidence.verdict import Verdict as Judged
 from hexdbb.learned import Learned
-from hexdbb.model import Choice, Model, Parameter, Size
-from hexdbb.units import shown_factor, shown_unit
+from hexdbb.model import Model, Size
 
 Floats = NDArray[np.float64]
 Judge = Callable[[Model, Floats], Sufficiency]
@@ -86,22 +85,22 @@ def told(search: Search, judged: Judged, judge: Judge, matters_um: float, with_t
         return _told_forms(search, refining)
     grade = graded(search, judged.node, found[0].grade)
     hypotheses = [each.hypothesis for each in found]
-    model, result = _fitted(search, judged.node.trial, hypotheses)
+    exact = exactly(search, judged.node.trial, hypotheses)
     names = [each.name for each in hypotheses if isinstance(each, Learned)]
-    learned = with_learned(search.engine.samples, model, names, search.engine.noise)
-    told_with = _Models(model, result, None if learned is None else learned[0])
+    learned = with_learned(search.engine.samples, exact.model, names, search.engine.noise)
+    told_with = _Models(exact, None if learned is None else learned[0])
     causes = tuple(_cause(search, judged.node, each, shares[each.hypothesis], told_with) for each in found)
     if grade == "unknown" != found[0].grade:  # what is not for sure together is no effect for sure alone
         causes = tuple(replace(each, verdict=grade) for each in causes)
-    remaining = None if result is None else judge(model, result.residual_mm)
+    remaining = None if exact.residual_mm is None else judge(exact.model, exact.residual_mm)
     return Told(
         verdict=grade,
         sentence=verdict_sentence(grade, causes, judged.checked.share, judged.checked.heldout),
         causes=causes,
         candidates=candidates,
-        model=model,
+        model=exact.model,
         remaining=remaining,
-        next_test=_next_test(search, found[0], causes[0], model) if grade == "ambiguous" else None,
+        next_test=_next_test(search, found[0], causes[0], exact.model) if grade == "ambiguous" else None,
         remarks=_remarks(search, judged.node.trial, causes, grade, remaining),
         likely=likely_sentence(causes, judged.checked.share, judged.checked.heldout),
         learned=told_with.learned,
@@ -190,30 +189,11 @@ def _share(search: Search, node: Node, hypothesis: Hypothesis) -> float:
         return 0.0
 
 
-def _fitted(search: Search, trial: Trial, hypotheses: Sequence[Hypothesis]) -> tuple[Model, _core.FitResult | None]:
-    """Fit the known ones of a trial's hypotheses to all readings in their exact form, as they would be added."""
-    engine = search.engine
-    known = [each for each in hypotheses if isinstance(each, Known)]
-    if not known:
-        return engine.base, None
-    model = engine.base
-    for each in known:
-        model = model.with_effect(Choice(each.effect, each.elements))
-    # Learned functions stand in a trial with fewer axes, and near where the base has them.
-    there = {term.effect: term.values for term in trial.model.terms}
-    terms = tuple(
-        term if term.learned is not None else replace(term, values=there[term.effect]) for term in model.terms
-    )
-    start = replace(model, terms=terms)
-    return evaluate_fit(engine.samples, start, start.free, engine.noise, hypothesis=True)
-
-
 @dataclass(frozen=True)
 class _Models:
-    """The model with the known causes, its fit, and the same with the learned ones that it can hold."""
+    """The known causes as they were fitted, and the model with the learned ones that it can hold."""
 
-    known: Model
-    result: _core.FitResult | None
+    exact: ExactFit
     learned: Model | None
 
 
@@ -227,13 +207,11 @@ def _cause(search: Search, node: Node, found: Found, share: float, models: _Mode
         clause = words.place_clause(hypothesis) if term is None else words.function_clause(term)
         elements: tuple[str, ...] = ()
     else:
-        assert models.result is not None
         effect, elements = hypothesis.effect, hypothesis.elements
         form = node.trial.forms[node.hypotheses.index(hypothesis)]
         # Geometry takes what elements share, and one value for all, fitted to how they differ, is of either sign.
-        told_by = models.known if form is None or form.law is None else node.trial.model
-        values = _values(told_by, models.known, models.result, hypothesis)
-        clause = effect_clause(models.known.info(effect), values)
+        values = models.exact.values_of(hypothesis, None if form is None or form.law is None else node.trial.model)
+        clause = effect_clause(models.exact.model.info(effect), values)
         refinements = (*_law_at_each(search, form), *refinements)
     return Cause(
         choice=choice_of(hypothesis),
@@ -277,22 +255,6 @@ def _node_called(search: Search, name: str) -> Node | None:
     return next((each for each in search.nodes if " + ".join(each.trial.names) == name), None)
 
 
-def _values(told: Model, model: Model, result: _core.FitResult, own: Known) -> tuple[Size, ...]:
-    """Return the values that a model says of an effect, with the standard deviations of those of a fitted one."""
-    spread = dict(zip(map(_key, model.parameters()), np.sqrt(np.diag(result.covariance)), strict=True))
-    rows = []
-    for each, value in zip(told.parameters(), told.values, strict=True):
-        if each.effect == own.effect and each.element in own.elements:
-            factor = shown_factor(each.unit)
-            sigma = float(spread[_key(each)]) * factor
-            rows.append(Size(each.element, each.name, float(value) * factor, sigma, shown_unit(each.unit)))
-    return tuple(rows)
-
-
-def _key(parameter: Parameter) -> tuple[str, str, str]:
-    return parameter.effect, parameter.element, parameter.name
-
-
 def _law_at_each(search: Search, form: Form | None) -> tuple[str, ...]:
     """Return the function by which elements that share an effect have one size each, where they differ."""
     if form is None or form.law is None or form.unlike < words.SMALLEST_DEVIATION:
@@ -306,6 +268,6 @@ def _next_test(search: Search, found: Found, cause: Cause, model: Model) -> Next
         node = _node_called(search, set_of)
         if node is None or not all(isinstance(each, Known) for each in node.hypotheses):
             continue
-        other, _ = _fitted(search, node.trial, node.hypotheses)
+        other = exactly(search, node.trial, node.hypotheses).model
         return next_test(search.engine.samples, search.engine.noise, (model, other), (cause.choice, name))
     return None

@@ -32,7 +32,7 @@ CLAUSES = {
 }
 """Clause on one element; `who` is the element, `grow` or shrink by the sign, the others are values with uncertainty."""
 MAX_CLAUSES = 2
-"""Elements told one by one; of further ones the number: a sentence remains one."""
+"""Elements told one by one; of more, which they are, the largest and the smallest: a sentence remains one."""
 
 
 def effect_clause(info: _core.EffectInfo, sizes: Sequence[Size]) -> str:
@@ -45,22 +45,23 @@ def effect_clause(info: _core.EffectInfo, sizes: Sequence[Size]) -> str:
         Values of the elements that are meant.
     """
     elements = [(name, list(each)) for name, each in groupby(sizes, key=lambda size: size.element)]
-    if MAX_CLAUSES < len(elements) == len(info.elements):
-        return _of_all(info, elements)
-    said = [_clause(info, element, own) for element, own in elements[:MAX_CLAUSES]]
-    more = len(elements) - MAX_CLAUSES
-    return " and ".join(said) + (f", and so on for {more} more" if more > 0 else "")
+    if len(elements) > MAX_CLAUSES:
+        return _of_several(info, elements)
+    return " and ".join(_clause(info, element, own) for element, own in elements)
 
 
-def _of_all(info: _core.EffectInfo, elements: Sequence[tuple[str, Sequence[Size]]]) -> str:
-    """Return an effect that all elements have: where it is largest, and what it is where it is smallest."""
+def _of_several(info: _core.EffectInfo, elements: Sequence[tuple[str, Sequence[Size]]]) -> str:
+    """Return an effect that several elements have: where it is largest, and what it is where it is smallest."""
     kind, place = info.element_kind, _telling(elements)
     ranked = sorted(elements, key=lambda each: -abs(each[1][place].value))
     (largest, most), (element, least) = ranked[0], ranked[-1]
-    all_of_them = f"all {len(elements)} {kind}s: {_clause(info, largest, most)}"
+    *names, last = [name for name, _ in elements]
+    some = f"{kind}s {', '.join(names)} and {last}"
+    whose = f"all {len(elements)} {kind}s" if len(elements) == len(info.elements) else some
+    told = f"{whose}: {_clause(info, largest, most)}"
     if f"{{{least[place].name}}}" not in CLAUSES.get(info.name, ""):
-        return f"{all_of_them} most, that of {kind} {element} least"
-    return f"{all_of_them}, down to {size_words(least[place])} of {kind} {element}"
+        return f"{told} most, that of {kind} {element} least"
+    return f"{told}, down to {size_words(least[place])} of {kind} {element}"
 
 
 def _telling(elements: Sequence[tuple[str, Sequence[Size]]]) -> int:

@@ -55,11 +55,11 @@ def at_those_seen(search: Search, fewer: Node, members: Sequence[Member], *, one
             return None
         known = _effect(trial)
         *others, _ = trial.members
-        apart = (Known(known.effect, (each,)) for each in seen)
-        last = [Known(known.effect, seen)] if len(seen) >= FEWEST else [*apart]
+        apart = [Known(known.effect, (each,)) for each in seen]
+        # Play of three drives beside two other causes is one more than are told apart: it stays one cause.
+        is_one = len(seen) >= FEWEST or len(others) + len(apart) > search.criteria.max_effects
+        last = [Known(known.effect, seen)] if is_one else apart
         found = (*others, *map(Member, last))
-        if len(found) > search.criteria.max_effects:
-            return None
         count_kin(search, last)
         return search.node(found, near=fewer)
     except RunError:
