@@ -24,7 +24,8 @@ SMALLEST_DEVIATION = 0.01
 def function_clause(term: Term) -> str:
     """Return a learned effect of a fitted model as a clause: where it pushes, on what it depends, its form.
 
-    Of the axes of a ball or cup those along which nothing is distinguishable from zero are left out.
+    Of the axes of a ball or cup those along which nothing is distinguishable from zero are left out. Where that is all,
+    geometry takes most of what it does: two legs, by the angle of their joints, are two sliders nearer to each other.
     """
     effect = term.learned
     assert effect is not None
@@ -39,7 +40,9 @@ def function_clause(term: Term) -> str:
         return f"{place_clause(space.hypothesis)}, within {size_um:.3g} µm"
     if NUMBERED in space.hypothesis.variable.name:  # instants or a period say more than the function's form
         return place_clause(space.hypothesis)
-    return ", ".join(sentence(space.hypothesis, curves[k], space.period, k) for k in clear or [0])
+    if not clear:
+        return f"{place_clause(space.hypothesis)}, by how much geometry tells as well"
+    return ", ".join(sentence(space.hypothesis, curves[k], space.period, k) for k in clear)
 
 
 def place_clause(hypothesis: Learned) -> str:
