@@ -39,4 +39,3 @@ def test_play_of_drives_that_have_none_is_never_negative(measured: Callable[[str
     assert added is not None
     assert np.all(added.values >= 0.0)
     assert exact.model.free.sum() == trial.model.free.sum()
-
