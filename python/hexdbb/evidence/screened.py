@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from hexdbb.evidence.homes import Homes
 from hexdbb.evidence.periods import vibrations
+from hexdbb.evidence.physical import is_one_sided
 from hexdbb.evidence.place import kin_of
 from hexdbb.evidence.proposals import proposals
 from hexdbb.evidence.readings import Linear
@@ -229,7 +230,9 @@ def _known_sets(search: Search, most: int) -> list[Together]:
     sums = Sums(search.trials.linear(search.root.trial), engine.readings, ())
     screen = Screen(sums, criteria, search.thinned)
     kinds = {name for name in search.known if search.is_whole(name)}
-    sets = KnownSets(screen, [each for each, _ in tables], [each for _, each in tables], kinds, criteria)
+    infos = {name: engine.base.info(name) for name in search.known}
+    one_sided = {name for name, info in infos.items() if any(is_one_sided(info, each.name) for each in info.parameters)}
+    sets = KnownSets(screen, [each for each, _ in tables], [each for _, each in tables], kinds, criteria, one_sided)
     return sets.best(most, criteria.most_of_one_effect)
 
 

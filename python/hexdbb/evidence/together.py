@@ -8,7 +8,7 @@ and with the tempered noise of `screen.py`, as for single hypotheses; the search
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,6 +19,9 @@ from hexdbb.evidence.screen import Known, Screen
 
 Floats = NDArray[np.float64]
 Whose = Sequence[tuple[str, str, str, float]]
+
+OF_ONE_SIGN = 3
+"""Elements of one effect of one sign in a set of three and more: at four and more it is one cause at all of them."""
 
 
 @dataclass(frozen=True)
@@ -56,12 +59,20 @@ class KnownSets:
     kinds : set of str
         Effects that have one element only.
     criteria : Criteria
+    one_sided : set of str
+        Effects of one sign by their nature.
     """
 
     def __init__(
-        self, screen: Screen, signatures: Sequence[Floats], whose: Sequence[Whose], kinds: set[str], criteria: Criteria
+        self,
+        screen: Screen,
+        signatures: Sequence[Floats],
+        whose: Sequence[Whose],
+        kinds: set[str],
+        criteria: Criteria,
+        one_sided: Collection[str] = (),
     ) -> None:
-        self.criteria = criteria
+        self.criteria, self._one_sided = criteria, one_sided
         projected = screen.whole.project(screen.sums.joined(list(signatures)))
         self._information, self._gradient = projected.information / screen.temper, projected.gradient / screen.temper
         columns: dict[tuple[int, str, str], list[int]] = defaultdict(list)
@@ -83,7 +94,8 @@ class KnownSets:
             Effects in a set.
         per_effects : int
             Elements of one effect in a pair, and sets of the same effects at different elements. Larger sets have one
-            element of each effect: screws that warm, each in its own way, imitate whatever changes with time.
+            element of each effect: screws that warm, each in its own way, imitate whatever changes with time. Those of
+            one sign cannot, and stand at up to `OF_ONE_SIGN` elements: play of three drives beside legs that sag.
         """
         chosen: list[Together] = []
         sets = self._scored([(each,) for each in self.every])
@@ -91,8 +103,9 @@ class KnownSets:
         best = max((each.log_evidence for each in sets), default=0.0)
         for size in range(2, most + 1):
             followed = sets if size == 2 else sets[: self.criteria.known_sets_followed]
-            of_one_effect = per_effects if size == 2 else 1
-            sets = self._scored(_widened((each.members for each in followed), self.every, of_one_effect))
+            most_of = {each: OF_ONE_SIGN for each in self._one_sided if size > 2}
+            of_others = per_effects if size == 2 else 1
+            sets = self._scored(_widened((each.members for each in followed), self.every, most_of, of_others))
             worth = [each for each in sets if each.log_evidence > best + choice]
             chosen += _of_different_effects(worth, self.criteria.known_sets, per_effects)
             best = max([best, *(each.log_evidence for each in worth)])
@@ -128,15 +141,15 @@ class KnownSets:
 
 
 def _widened(
-    sets: Iterable[tuple[Signed, ...]], every: Sequence[Signed], of_one_effect: int
+    sets: Iterable[tuple[Signed, ...]], every: Sequence[Signed], most_of: Mapping[str, int], of_others: int
 ) -> list[tuple[Signed, ...]]:
-    """Return every set with every effect beside it, each combination once."""
+    """Return every set with every effect beside it, each combination once, with so many elements of each effect."""
     found: dict[frozenset[Signed], tuple[Signed, ...]] = {}
     for each in sets:
         there = {one.known for one in each}
         for other in every:
             wider = [one.effect for one in (*there, other.known)]
-            if other.known not in there and max(map(wider.count, wider)) <= of_one_effect:
+            if other.known not in there and all(wider.count(e) <= most_of.get(e, of_others) for e in {*wider}):
                 found.setdefault(frozenset((*each, other)), (*each, other))
     return list(found.values())
 
