@@ -230,8 +230,8 @@ def _known_sets(search: Search, most: int) -> list[Together]:
     sums = Sums(search.trials.linear(search.root.trial), engine.readings, ())
     screen = Screen(sums, criteria, search.thinned)
     kinds = {name for name in search.known if search.is_whole(name)}
-    infos = {name: engine.base.info(name) for name in search.known}
-    one_sided = {name for name, info in infos.items() if any(is_one_sided(info, each.name) for each in info.parameters)}
+    every = ((engine.base.info(name), each.name) for name in search.known for each in engine.base.info(name).parameters)
+    one_sided = {(info.name, name) for info, name in every if is_one_sided(info, name)}
     sets = KnownSets(screen, [each for each, _ in tables], [each for _, each in tables], kinds, criteria, one_sided)
     return sets.best(most, criteria.most_of_one_effect)
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,13 +23,23 @@ Whose = Sequence[tuple[str, str, str, float]]
 OF_ONE_SIGN = 3
 """Elements of one effect of one sign in a set of three and more: at four and more it is one cause at all of them."""
 
+LOOKED_AT = 4
+"""Sets whose signs are looked at, over those that are followed: most of the first have the same imitator in them."""
+
+SEEN = 0.2
+"""Part of an effect's largest size above which it is seen at an element: its square is what a form may be, 4 %."""
+
 
 @dataclass(frozen=True)
 class Signed:
-    """A known effect's element with the columns of its signature; one of several shapes is a `Signed` of its own."""
+    """A known effect's element with the columns of its signature; one of several shapes is a `Signed` of its own.
+
+    `parts` are the elements of an effect that stands at all of them.
+    """
 
     known: Known
     columns: tuple[int, ...]
+    parts: tuple[Signed, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -59,8 +69,8 @@ class KnownSets:
     kinds : set of str
         Effects that have one element only.
     criteria : Criteria
-    one_sided : set of str
-        Effects of one sign by their nature.
+    one_sided : set of (effect, parameter)
+        Values of one sign by their nature.
     """
 
     def __init__(
@@ -70,11 +80,12 @@ class KnownSets:
         whose: Sequence[Whose],
         kinds: set[str],
         criteria: Criteria,
-        one_sided: Collection[str] = (),
+        one_sided: Collection[tuple[str, str]] = (),
     ) -> None:
-        self.criteria, self._one_sided = criteria, one_sided
+        self.criteria, self._one_sided = criteria, {effect for effect, _ in one_sided}
         projected = screen.whole.project(screen.sums.joined(list(signatures)))
         self._information, self._gradient = projected.information / screen.temper, projected.gradient / screen.temper
+        self._is_signed = np.array([(effect, name) in one_sided for names in whose for effect, _, name, _ in names])
         columns: dict[tuple[int, str, str], list[int]] = defaultdict(list)
         for place, (table, (effect, element, _, _)) in enumerate(
             (table, each) for table, names in enumerate(whose) for each in names
@@ -84,6 +95,7 @@ class KnownSets:
             Signed(Known(effect, (element,), effect in kinds), tuple(places))
             for (_, effect, element), places in columns.items()
         ]
+        self.every += _at_all_elements(columns, self._one_sided)
 
     def best(self, most: int, per_effects: int) -> list[Together]:
         """Return the best sets of two to `most` effects that explain more than any with fewer.
@@ -106,10 +118,38 @@ class KnownSets:
             most_of = {each: OF_ONE_SIGN for each in self._one_sided if size > 2}
             of_others = per_effects if size == 2 else 1
             sets = self._scored(_widened((each.members for each in followed), self.every, most_of, of_others))
+            sets = self._physical_of(sets[: LOOKED_AT * self.criteria.known_sets_followed], most)
             worth = [each for each in sets if each.log_evidence > best + choice]
             chosen += _of_different_effects(worth, self.criteria.known_sets, per_effects)
             best = max([best, *(each.log_evidence for each in worth)])
         return chosen
+
+    def _physical_of(self, sets: Sequence[Together], most: int) -> list[Together]:
+        """Return sets in which values of one sign have it, the largest evidence first.
+
+        Leads of six drives imitate much, and so do spikes of which half go backwards. An effect at all elements that is
+        seen at few of them stands at these.
+        """
+        reduced = {each.effects: each for each in map(self._at_those_seen, sets) if each is not None}
+        found = self._scored([each.members for each in reduced.values() if len(each.members) <= most])
+        return found
+
+    def _at_those_seen(self, together: Together) -> Together | None:
+        columns = [place for each in together.members for place in each.columns]
+        information, gradient = self._information[np.ix_(columns, columns)], self._gradient[columns]
+        values = dict(zip(columns, np.linalg.solve(np.eye(len(columns)) + information, gradient), strict=True))
+
+        def size(each: Signed) -> float:
+            return min((values[place] for place in each.columns if self._is_signed[place]), default=np.inf)
+
+        members: list[Signed] = []
+        for each in together.members:
+            least = SEEN * max(map(size, each.parts), default=0.0)
+            seen = [part for part in each.parts if size(part) > max(least, 0.0)]
+            members += seen if 0 < len(seen) <= OF_ONE_SIGN else [each]
+            if (each.parts and not seen) or (not each.parts and size(each) <= 0.0):
+                return None
+        return replace(together, members=tuple(members))
 
     def _scored(self, sets: Sequence[tuple[Signed, ...]]) -> list[Together]:
         """Score sets, the largest evidence first, each with the best of its members' shapes."""
@@ -149,12 +189,35 @@ def _widened(
         there = {one.known for one in each}
         for other in every:
             wider = [one.effect for one in (*there, other.known)]
-            if other.known not in there and all(wider.count(e) <= most_of.get(e, of_others) for e in {*wider}):
+            is_twice = other.known in there or _has_one_of_all(other.known, there)
+            if not is_twice and all(wider.count(e) <= most_of.get(e, of_others) for e in {*wider}):
                 found.setdefault(frozenset((*each, other)), (*each, other))
     return list(found.values())
 
 
-def _of_different_effects(sets: Sequence[Together], count: int, of_the_same: int) -> list[Together]:
+def _has_one_of_all(known: Known, there: Collection[Known]) -> bool:
+    """Check for an effect at all elements and at one of them beside it."""
+    return any(known.effect == each.effect and not {*known.elements}.isdisjoint(each.elements) for each in there)
+
+
+def _at_all_elements(columns: Mapping[tuple[int, str, str], list[int]], one_sided: Collection[str]) -> list[Signed]:
+    """Return effects of one sign at all their elements, one cause each: drives of one make all lag."""
+    found: dict[tuple[int, str], list[Signed]] = defaultdict(list)
+    for (table, effect, element), places in columns.items():
+        if effect in one_sided:
+            found[table, effect].append(Signed(Known(effect, (element,)), tuple(places)))
+    return [
+        Signed(
+            Known(effect, tuple(each.known.elements[0] for each in parts), True),
+            tuple(place for each in parts for place in each.columns),
+            tuple(parts),
+        )
+        for (_, effect), parts in found.items()
+        if len(parts) > OF_ONE_SIGN
+    ]
+
+
+def _of_different_effects(sets: Iterable[Together], count: int, of_the_same: int) -> list[Together]:
     """Return the first sets, few of them the same effects at other elements."""
     found: list[Together] = []
     same: dict[tuple[str, ...], int] = defaultdict(int)
