@@ -131,10 +131,13 @@ class KnownSets:
         seen at few of them stands at these.
         """
         reduced = {each.effects: each for each in map(self._at_those_seen, sets) if each is not None}
-        found = self._scored([each.members for each in reduced.values() if len(each.members) <= most])
-        return found
+        return self._scored([each.members for each in reduced.values() if len(each.members) <= most])
 
     def _at_those_seen(self, together: Together) -> Together | None:
+        """Return a set, an effect that stands at all elements but is seen at few of them at these.
+
+        None where a value has the sign that it cannot have.
+        """
         columns = [place for each in together.members for place in each.columns]
         information, gradient = self._information[np.ix_(columns, columns)], self._gradient[columns]
         values = dict(zip(columns, np.linalg.solve(np.eye(len(columns)) + information, gradient), strict=True))

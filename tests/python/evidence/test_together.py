@@ -69,3 +69,37 @@ def test_nothing_is_put_together_where_one_explains_all(
 ) -> None:
     _, sets = _sets(replace(linear, residual=linear.residual + signatures[:, 4]), readings, signatures)
     assert sets == []
+
+
+def _of_drives(linear: Linear, readings: Readings, hidden: np.ndarray, one_sided: set[tuple[str, str]]) -> list[str]:
+    """Play of six drives, two other effects beside it: the names of the best set where some of them are there."""
+    columns = np.random.default_rng(12).normal(size=(len(readings), 8))
+    found = replace(linear, residual=linear.residual + columns @ hidden)
+    screen = Screen(Sums(found, readings, ("circle",)), DEFAULT, Thinned(readings, 240))
+    whose = [
+        *(("play", str(k), "size", 1.0) for k in range(1, 7)),
+        ("sag", "1", "size", 1.0),
+        ("drift", "1", "rate", 1.0),
+    ]
+    sets = KnownSets(screen, [columns], [whose], {"sag", "drift"}, DEFAULT, one_sided).best(4, 2)
+    return sorted(each.known.name for each in max(sets, key=lambda each: each.log_evidence).members)
+
+
+PLAY = {("play", "size")}
+
+
+def test_what_is_of_one_sign_stands_at_up_to_three_elements_beside_others(linear: Linear, readings: Readings) -> None:
+    hidden = np.array([0.0, 0.0, 0.0, 1.0, 1.1, 0.8, 1.0, 0.0])
+    assert _of_drives(linear, readings, hidden, PLAY) == ["play:4", "play:5", "play:6", "sag"]
+    assert len(_of_drives(linear, readings, hidden, set())) < 4  # of either sign: one element in larger sets
+
+
+def test_what_is_seen_at_most_elements_is_one_cause_at_all_of_them(linear: Linear, readings: Readings) -> None:
+    hidden = np.array([1.0, 1.1, 0.9, 1.0, 1.2, 0.8, 1.0, 1.0])
+    assert _of_drives(linear, readings, hidden, PLAY) == ["drift", "play", "sag"]
+
+
+def test_a_sign_that_cannot_be_is_in_no_set(linear: Linear, readings: Readings) -> None:
+    hidden = np.array([-1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0])
+    assert _of_drives(linear, readings, hidden, PLAY) == ["drift", "sag"]
+    assert "play:1" in _of_drives(linear, readings, hidden, set())
