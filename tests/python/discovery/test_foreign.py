@@ -311,6 +311,12 @@ def test_play_and_spikes_of_two_sliders_are_told_apart_from_a_lag_of_all() -> No
         # Lags of all six, of which four are what a delay is as well; the play of quite another form.
         pytest.param("two-lag-legs-grow", {"servo_lag:3", "servo_lag:4", "leg_thermal"}, marks=pytest.mark.long),
         pytest.param("play-beside-growth", {"backlash:4", "leg_thermal", "pitch_cyclic:6"}, marks=pytest.mark.long),
+        # Three drives of six, beside another cause: neither one by one nor as one cause at all of them.
+        pytest.param(
+            "play-of-three-and-sag",
+            {"backlash:4", "backlash:5", "backlash:6", "gravity_sag"},
+            marks=pytest.mark.long,
+        ),
     ],
 )
 def test_forms_of_their_own_do_not_hide_effects(name: str, causes: set[str]) -> None:
