@@ -20,6 +20,10 @@ KNOWN_ALONE = "known effects alone were tried: a function learned from the readi
 SMALLEST_DEVIATION = 0.01
 """Deviation of form from which it is stated: below, a machine's effect is as the formula has it."""
 
+MOST_WAYS = 2
+"""Functions of one push that are told one by one. Those over where a leg points, for its tilt and the square of that,
+say little each: they make up for one another."""
+
 
 def function_clause(term: Term) -> str:
     """Return a learned effect of a fitted model as a clause: where it pushes, on what it depends, its form.
@@ -40,6 +44,9 @@ def function_clause(term: Term) -> str:
         return f"{place_clause(space.hypothesis)}, within {size_um:.3g} µm"
     if NUMBERED in space.hypothesis.variable.name:  # instants or a period say more than the function's form
         return place_clause(space.hypothesis)
+    variable = space.hypothesis.variable
+    if variable.ways > MOST_WAYS:
+        return f"{whole_place_words(space.hypothesis)}: follows the {variable.words}, otherwise at each of its tilts"
     if not clear:
         return f"{place_clause(space.hypothesis)}, by how much geometry tells as well"
     return ", ".join(sentence(space.hypothesis, curves[k], space.period, k) for k in clear)

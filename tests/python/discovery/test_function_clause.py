@@ -13,11 +13,11 @@ from hexdbb.model import LearnedEffect, Term, new_term
 NAME = "learned:leg:1-2:joint_angle"
 
 
-def term(value_mm: float, sigma_mm: float) -> Term:
-    space = Space(Learned.parse(NAME), -0.4, 0.4)
+def term(value_mm: float, sigma_mm: float, name: str = NAME) -> Term:
+    space = Space(Learned.parse(name), -0.4, 0.4)
     effect = LearnedEffect(space, 1.0, 0.01)
-    bands = (sigma_mm,) * len(space.points())
-    found = new_term(NAME, effect.size)
+    bands = (sigma_mm,) * (len(space.points()) * space.hypothesis.functions)
+    found = new_term(name, effect.size)
     values = value_mm * np.linspace(-1.0, 1.0, effect.size)
     return replace(found, values=values, learned=replace(effect, sigma_mm=bands))
 
@@ -31,3 +31,9 @@ def test_a_cause_that_geometry_mostly_takes_is_not_said_to_be_nothing() -> None:
 
 def test_one_that_stands_out_is_told_by_its_form() -> None:
     assert "µm" in function_clause(term(0.01, 0.0001))
+
+
+def test_three_functions_that_make_up_for_one_another_are_one_clause() -> None:
+    """Of a forked joint each varied by more than a millimetre, for a leg that errs by tens of micrometres."""
+    clause = function_clause(term(1.0, 0.1, "learned:leg:3:leg_in_platform"))
+    assert clause == "length of leg 3: follows the direction of the leg in the platform, otherwise at each of its tilts"
