@@ -28,6 +28,7 @@ from hexdbb.evidence.trial import Trial
 from hexdbb.evidence.verdict import Found
 from hexdbb.evidence.verdict import Verdict as Judged
 from hexdbb.learned import Learned
+from hexdbb.learned.places import EACH
 from hexdbb.model import Model, Size
 
 Floats = NDArray[np.float64]
@@ -128,8 +129,11 @@ def _told_forms(search: Search, refining: Sequence[Hypothesis] = ()) -> Told:
     functions = [each.name for each in refining]
     functions = functions or [name for _, form in deviating for name in form.functions]
     sentence = f"no other cause is missing: what is left is the form of {words.joined(whose or ['what was found'])}"
-    refine = f"the form is refined by: hexdbb add {functions[0]}" if functions else ""
-    remarks = (refine,) if refine else ()
+    remarks = (f"the form is refined by: hexdbb add {functions[0]}",) if functions else ()
+    if len(functions) > 1:
+        remarks += (
+            f"it is described by {len(functions)} functions; hexdbb discover --auto --forms adds what predicts",
+        )
     return Told("none", sentence, (), (), engine.base, None, None, remarks, refinements=tuple(functions))
 
 
@@ -169,6 +173,12 @@ def _remarks(
             if each.form_deviation >= words.SMALLEST_DEVIATION
         ]
     )
+    said += [
+        f"{each.choice} has one value for all: by what each is larger or smaller is added by: hexdbb add {name}"
+        for each in causes
+        for name in each.refinements
+        if Learned.parse(name).element == EACH
+    ]
     beside_um = left_um(search, trial)
     if grade == "effect" and remaining is not None and remaining.matters and beside_um >= remaining.matters_um:
         said.append(f"{MORE}: {beside_um:.2f} µm are left that neither the causes nor their forms explain")
