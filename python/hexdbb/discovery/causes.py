@@ -129,12 +129,12 @@ def _told_forms(search: Search, refining: Sequence[Hypothesis] = ()) -> Told:
     functions = [each.name for each in refining]
     functions = functions or [name for _, form in deviating for name in form.functions]
     sentence = f"no other cause is missing: what is left is the form of {words.joined(whose or ['what was found'])}"
-    remarks = (f"the form is refined by: hexdbb add {functions[0]}",) if functions else ()
+    remarks = [f"the form is refined by: hexdbb add {each}" for each in functions[:1]]
     if len(functions) > 1:
-        remarks += (
-            f"it is described by {len(functions)} functions; hexdbb discover --auto --forms adds what predicts",
+        remarks.append(
+            f"{len(functions)} functions describe it; hexdbb discover --auto --forms adds those that predict"
         )
-    return Told("none", sentence, (), (), engine.base, None, None, remarks, refinements=tuple(functions))
+    return Told("none", sentence, (), (), engine.base, None, None, tuple(remarks), refinements=tuple(functions))
 
 
 def left_um(search: Search, trial: Trial) -> float:
