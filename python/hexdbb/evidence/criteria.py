@@ -147,7 +147,7 @@ class Criteria:
     max_expansions : int
         Sets beside which all hypotheses are screened, at most: bounds the time of a search.
     most_expansions : int
-        The same with those by which a set is looked at again (`exchange.py`); known effects alone by themselves.
+        The same with those by which a set is looked at again (`exchange.py`).
     complete : float
         Part of what was unexplained that may be left where the search for a further cause is not widened.
     leaves_structure : float

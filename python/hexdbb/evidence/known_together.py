@@ -19,7 +19,6 @@ from hexdbb.evidence.settling import (
     predicts,
     rests_on_form,
 )
-from hexdbb.evidence.some_elements import count_kin
 from hexdbb.evidence.trial import Member
 
 if TYPE_CHECKING:
@@ -49,7 +48,6 @@ def or_known_together(search: Search, best: Node) -> Node:
         in_form = [alone[each] for each in together.effects if each in alone]
         if not all(leaves_room(search, each) or _stands_by_form(search, each) for each in in_form):
             continue
-        count_kin(search, [each.known for each in together.members])
         node = _fitted(search, tuple(Member(each.known) for each in together.members))
         # What does not predict is told by one pass over the readings, what is needed by fits of every smaller set.
         if node is None or not _stands(search, node, best, in_form):

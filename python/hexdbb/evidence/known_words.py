@@ -22,6 +22,7 @@ from hexdbb.evidence.settling import (
     misses_most,
     must_explain,
 )
+from hexdbb.evidence.sure import is_for_sure
 from hexdbb.evidence.trial import Member
 from hexdbb.learned import ALL, Learned
 
@@ -169,15 +170,15 @@ def _leaves_more(search: Search, node: Node, than: Node, learned: Learned) -> bo
     drifts, and predicts none of it.
 
     Beside other functions it is one that leaves more, and of which the formula says little: a dent is no bow. Beside
-    other effects the formula must say nearly all of what the function does: a leg that a motor shakes most at one speed
-    is no pitch error of its slider, however little either is against the ball that sits otherwise.
+    other effects, all of them for sure, the formula must say most of what the function does: a leg that a motor shakes
+    most at one speed is no pitch error of its slider, however little either is against the ball that sits otherwise.
     """
     beyond = explained_beyond(search, than.trial, node.trial)
     is_more = beyond > max(must_explain(search, node.trial), NOTHING_LEFT)
     if not node.is_known:
         return is_more and _is_mostly_form(search, node, than)
     if len(node.members) > 1:
-        return is_more and not _formula_says_it(search, node, than)
+        return is_more and not _formula_says_it(search, node, than) and is_for_sure(search, node)
     is_last = search.learnable.is_further(learned) and not than.trial.is_of_time
     return is_more and (is_last or explained_by_formulas(search, node) < search.criteria.explained_min)
 
@@ -192,7 +193,7 @@ def _is_mostly_form(search: Search, node: Node, than: Node) -> bool:
 
 
 def _formula_says_it(search: Search, node: Node, than: Node) -> bool:
-    """Check for one known effect, new beside others, whose formula explains nearly all that a function explains there.
+    """Check for one known effect, new beside others, whose formula explains most of what a function explains there.
 
     Several in the place of one function are told by other rules.
     """
@@ -201,7 +202,7 @@ def _formula_says_it(search: Search, node: Node, than: Node) -> bool:
     new, form = found
     others = search.trials.of_fewer(node.without(new), node.trial).left
     by_formula = others - search.left_by_formula(node.trial, form)
-    return by_formula >= search.criteria.form_explains * (others - than.trial.left)
+    return by_formula >= search.criteria.explained_min * (others - than.trial.left)
 
 
 def _new_with_form(node: Node, than: Node) -> tuple[Member, Form] | None:

@@ -5,9 +5,11 @@ from __future__ import annotations
 from hexdbb.evidence.all_elements import FEWEST
 from hexdbb.evidence.by_formulas import explain_nearly_all, explains_by_its_own
 from hexdbb.evidence.node import Node
-from hexdbb.evidence.screen import Hypothesis
+from hexdbb.evidence.screen import Hypothesis, Known
+from hexdbb.evidence.screened import known_beside
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.settling import NOTHING_LEFT, is_complete, must_explain, of_forms
+from hexdbb.evidence.shortlist import shortlist
 from hexdbb.evidence.without import acts_where_they_do, has_effect, sets_without
 
 
@@ -40,16 +42,22 @@ def of_one_size(search: Search, node: Node, cause: Hypothesis) -> list[str]:
     have more evidence. The one must explain nearly all that it does by its own formula, and what the sets leave differ
     by less than the noise.
     """
-    found, most = [], max(node.trial.left, 1.0) + must_explain(search, node.trial)
-    for other, _ in sets_without(search, node, cause):
-        new = [each for each in other.members if each.hypothesis not in node.hypotheses]
-        if len(new) != 1 or len(other.members) != len(node.members) or node.faults - other.faults < FEWEST:
-            continue
-        says_it_all = is_complete(search, other) and other.trial.left < most
-        is_known = other.is_known and not has_effect(other, cause) and not search.checked(other).reasons
-        if is_known and says_it_all and explains_by_its_own(search, other, new[0], search.criteria.form_explains):
-            found.append(" + ".join(other.trial.names))
-    return found
+    if not isinstance(cause, Known) or len(cause.elements) <= FEWEST:
+        return []
+    most = max(node.trial.left, 1.0) + must_explain(search, node.trial)
+    fewer = search.node(node.without(node.member(cause)), near=node)
+    screened = known_beside(search, fewer.trial, search.screen(fewer))
+    of_one = [each for each in screened if isinstance(each.hypothesis, Known) and each.hypothesis.is_whole]
+    found = [
+        other
+        for other in search.tried(fewer, shortlist(of_one, search.criteria.later_fits, 1))
+        if is_complete(search, other)
+        and other.trial.left < most
+        and not (other.trial.refused or search.checked(other).reasons)
+        and explains_by_its_own(search, other, other.members[-1], search.criteria.form_explains)
+    ]
+    search.nodes += found
+    return [" + ".join(other.trial.names) for other in found]
 
 
 def one_instead(search: Search, node: Node, cause: Hypothesis) -> list[str]:

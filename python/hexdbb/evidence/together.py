@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,23 +23,13 @@ Whose = Sequence[tuple[str, str, str, float]]
 OF_ONE_SIGN = 3
 """Elements of one effect of one sign in a set of three and more: at four and more it is one cause at all of them."""
 
-LOOKED_AT = 4
-"""Sets whose signs are looked at, over those that are followed: most of the first have the same imitator in them."""
-
-SEEN = 0.2
-"""Part of an effect's largest size above which it is seen at an element: its square is what a form may be, 4 %."""
-
 
 @dataclass(frozen=True)
 class Signed:
-    """A known effect's element with the columns of its signature; one of several shapes is a `Signed` of its own.
-
-    `parts` are the elements of an effect that stands at all of them.
-    """
+    """A known effect's element with the columns of its signature; one of several shapes is a `Signed` of its own."""
 
     known: Known
     columns: tuple[int, ...]
-    parts: tuple[Signed, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -95,7 +85,6 @@ class KnownSets:
             Signed(Known(effect, (element,), effect in kinds), tuple(places))
             for (_, effect, element), places in columns.items()
         ]
-        self.every += _at_all_elements(columns, self._one_sided)
 
     def best(self, most: int, per_effects: int) -> list[Together]:
         """Return the best sets of two to `most` effects that explain more than any with fewer.
@@ -118,41 +107,18 @@ class KnownSets:
             most_of = {each: OF_ONE_SIGN for each in self._one_sided if size > 2}
             of_others = per_effects if size == 2 else 1
             sets = self._scored(_widened((each.members for each in followed), self.every, most_of, of_others))
-            sets = self._physical_of(sets[: LOOKED_AT * self.criteria.known_sets_followed], most)
-            worth = [each for each in sets if each.log_evidence > best + choice]
-            chosen += _of_different_effects(worth, self.criteria.known_sets, per_effects)
-            best = max([best, *(each.log_evidence for each in worth)])
+            worth = (each for each in sets if each.log_evidence > best + choice)
+            found = _of_different_effects(filter(self._is_physical, worth), self.criteria.known_sets, per_effects)
+            chosen += found
+            best = max([best, *(each.log_evidence for each in found)])
         return chosen
 
-    def _physical_of(self, sets: Sequence[Together], most: int) -> list[Together]:
-        """Return sets in which values of one sign have it, the largest evidence first.
-
-        Leads of six drives imitate much, and so do spikes of which half go backwards. An effect at all elements that is
-        seen at few of them stands at these.
-        """
-        reduced = {each.effects: each for each in map(self._at_those_seen, sets) if each is not None}
-        return self._scored([each.members for each in reduced.values() if len(each.members) <= most])
-
-    def _at_those_seen(self, together: Together) -> Together | None:
-        """Return a set, an effect that stands at all elements but is seen at few of them at these.
-
-        None where a value has the sign that it cannot have.
-        """
+    def _is_physical(self, together: Together) -> bool:
+        """Check that values of one sign have it: a drive that leads imitates much."""
         columns = [place for each in together.members for place in each.columns]
-        information, gradient = self._information[np.ix_(columns, columns)], self._gradient[columns]
-        values = dict(zip(columns, np.linalg.solve(np.eye(len(columns)) + information, gradient), strict=True))
-
-        def size(each: Signed) -> float:
-            return min((values[place] for place in each.columns if self._is_signed[place]), default=np.inf)
-
-        members: list[Signed] = []
-        for each in together.members:
-            least = SEEN * max(map(size, each.parts), default=0.0)
-            seen = [part for part in each.parts if size(part) > max(least, 0.0)]
-            members += seen if 0 < len(seen) <= OF_ONE_SIGN else [each]
-            if (each.parts and not seen) or (not each.parts and size(each) <= 0.0):
-                return None
-        return replace(together, members=tuple(members))
+        precision = np.eye(len(columns)) + self._information[np.ix_(columns, columns)]
+        values = np.linalg.solve(precision, self._gradient[columns])
+        return bool(np.all(values[self._is_signed[columns]] > 0.0))
 
     def _scored(self, sets: Sequence[tuple[Signed, ...]]) -> list[Together]:
         """Score sets, the largest evidence first, each with the best of its members' shapes."""
@@ -192,32 +158,9 @@ def _widened(
         there = {one.known for one in each}
         for other in every:
             wider = [one.effect for one in (*there, other.known)]
-            is_twice = other.known in there or _has_one_of_all(other.known, there)
-            if not is_twice and all(wider.count(e) <= most_of.get(e, of_others) for e in {*wider}):
+            if other.known not in there and all(wider.count(e) <= most_of.get(e, of_others) for e in {*wider}):
                 found.setdefault(frozenset((*each, other)), (*each, other))
     return list(found.values())
-
-
-def _has_one_of_all(known: Known, there: Collection[Known]) -> bool:
-    """Check for an effect at all elements and at one of them beside it."""
-    return any(known.effect == each.effect and not {*known.elements}.isdisjoint(each.elements) for each in there)
-
-
-def _at_all_elements(columns: Mapping[tuple[int, str, str], list[int]], one_sided: Collection[str]) -> list[Signed]:
-    """Return effects of one sign at all their elements, one cause each: drives of one make all lag."""
-    found: dict[tuple[int, str], list[Signed]] = defaultdict(list)
-    for (table, effect, element), places in columns.items():
-        if effect in one_sided:
-            found[table, effect].append(Signed(Known(effect, (element,)), tuple(places)))
-    return [
-        Signed(
-            Known(effect, tuple(each.known.elements[0] for each in parts), True),
-            tuple(place for each in parts for place in each.columns),
-            tuple(parts),
-        )
-        for (_, effect), parts in found.items()
-        if len(parts) > OF_ONE_SIGN
-    ]
 
 
 def _of_different_effects(sets: Iterable[Together], count: int, of_the_same: int) -> list[Together]:
