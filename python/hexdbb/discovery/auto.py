@@ -81,19 +81,20 @@ def discover_all(
         found = discover(samples, model, candidates, progress, matters_um=matters_um)
         sure = [each.choice for each in found.causes if each.verdict == "effect"] if found.verdict == "effect" else []
         choices = [each for each in sure if each not in tried]
-        refining = [each for each in _describing(found, choices) if each not in tried] if forms else []
-        before = model
-        described.update((choices or added) if refining else ())
-        earlier = [each for each in added if each not in described]
+        forms_of = _describing(found, choices) if forms else ()
+        refining = [each for each in dict.fromkeys(forms_of) if each not in tried and model.term(each) is None]
+        earlier, before = tuple(added), model
         for step in _adding(samples, model, choices, refining, progress):
             model = step.diagnosis.model
+            described.update((choices or earlier) if step.choice in refining else ())
             added.append(step.choice)
             yield step
         if model is before:
             yield found
             return
         tried.update(refining)
-        for step in without_needless(samples, model, earlier, progress):
+        needless = [each for each in earlier if each not in described]
+        for step in without_needless(samples, model, needless, progress):
             model = step.diagnosis.model
             added.remove(step.choice)
             tried.add(step.choice)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from types import SimpleNamespace
 
 import pytest
 from tests.foreign_records import samples_of
@@ -55,6 +56,17 @@ def test_what_forms_leave_is_added_on_demand_and_the_error_falls_to_the_noise() 
     functions = [each for each in steps if isinstance(each, AutoStep) and each.choice.startswith("learned:")]
     assert any(each.choice.startswith("learned:leg:each:growth_settling@") for each in functions)
     assert all(predicts_better(each.diagnosis.model) for each in functions)
+
+
+def test_a_function_that_the_model_has_is_not_added_again(
+    measured: Callable[[str], Record], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    samples = Samples.of([measured("backlash-x3-s1")])
+    name = "learned:slider:4:position"
+    model = add_effect(samples, new_model(samples.machine), name).model
+    look = SimpleNamespace(verdict="none", causes=(), refinements=(name, name))
+    monkeypatch.setattr("hexdbb.discovery.auto.discover", lambda *_, **__: look)
+    assert [*discover_all(samples, model, forms=True)] == [look]
 
 
 def test_a_machine_that_lacks_nothing_gets_nothing(measured: Callable[[str], Record]) -> None:
