@@ -173,14 +173,21 @@ def _leaves_more(search: Search, node: Node, than: Node, learned: Learned) -> bo
     other effects, all of them for sure, the formula must say most of what the function does: a leg that a motor shakes
     most at one speed is no pitch error of its slider, however little either is against the ball that sits otherwise.
     """
-    beyond = explained_beyond(search, than.trial, node.trial)
-    is_more = beyond > max(must_explain(search, node.trial), NOTHING_LEFT)
+    if node.is_known and len(node.members) > 1:
+        if (new := _new_with_form(node, than)) is None or not _is_more_than_forms(search, node, than):
+            return False
+        return not _formula_says_it(search, node, than, *new) and is_for_sure(search, node)
     if not node.is_known:
-        return is_more and _is_mostly_form(search, node, than)
-    if len(node.members) > 1:
-        return is_more and not _formula_says_it(search, node, than) and is_for_sure(search, node)
+        return _is_more_than_forms(search, node, than) and _is_mostly_form(search, node, than)
     is_last = search.learnable.is_further(learned) and not than.trial.is_of_time
-    return is_more and (is_last or explained_by_formulas(search, node) < search.criteria.explained_min)
+    is_little = explained_by_formulas(search, node) < search.criteria.explained_min
+    return _is_more_than_forms(search, node, than) and (is_last or is_little)
+
+
+def _is_more_than_forms(search: Search, node: Node, than: Node) -> bool:
+    """Check that a set leaves more than another by what a further effect must explain."""
+    beyond = explained_beyond(search, than.trial, node.trial)
+    return beyond > max(must_explain(search, node.trial), NOTHING_LEFT)
 
 
 def _is_mostly_form(search: Search, node: Node, than: Node) -> bool:
@@ -192,14 +199,8 @@ def _is_mostly_form(search: Search, node: Node, than: Node) -> bool:
     return not explains_by_its_formula(search, node, form, others, search.criteria.explained_min)
 
 
-def _formula_says_it(search: Search, node: Node, than: Node) -> bool:
-    """Check for one known effect, new beside others, whose formula explains most of what a function explains there.
-
-    Several in the place of one function are told by other rules.
-    """
-    if (found := _new_with_form(node, than)) is None:
-        return True
-    new, form = found
+def _formula_says_it(search: Search, node: Node, than: Node, new: Member, form: Form) -> bool:
+    """Check for an effect, new beside others, whose formula explains most of what a function explains there."""
     others = search.trials.of_fewer(node.without(new), node.trial).left
     by_formula = others - search.left_by_formula(node.trial, form)
     return by_formula >= search.criteria.explained_min * (others - than.trial.left)
