@@ -60,7 +60,8 @@ def discover_all(
     matters_um : float, optional
         As for `discover`.
     forms : bool
-        Whether functions that describe the forms of the effects are added too, once no other cause is missing.
+        Whether functions that describe the forms of the effects are added too, where circles left out are predicted
+        better with them.
 
     Yields
     ------

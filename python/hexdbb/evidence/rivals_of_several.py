@@ -40,7 +40,7 @@ def of_one_size(search: Search, node: Node, cause: Hypothesis) -> list[str]:
 
     On circles of one radius about one cup a gauge that drifts is six screws that grow, and these, each with its form,
     have more evidence. The one must explain nearly all that it does by its own formula, and what the sets leave differ
-    by less than the noise.
+    by less than forms may hide.
     """
     if not isinstance(cause, Known) or len(cause.elements) <= FEWEST:
         return []

@@ -45,7 +45,7 @@ def test_a_pair_is_found_one_after_the_other(measured: Callable[[str], Record]) 
 
 @pytest.mark.long
 def test_what_forms_leave_is_added_on_demand_and_the_error_falls_to_the_noise() -> None:
-    """Legs that grow unequally beside a play and a pitch error: with their formulas alone 5.8 um of 13.4 stayed."""
+    """Legs that grow unequally beside a play and a pitch error: with their formulas alone 5.8 µm of 13.4 stayed."""
     samples = samples_of("play-beside-growth")
     noise_um = 1e3 * noise_of(samples).sigma_mm
     *steps, last = discover_all(samples, new_model(samples.machine), forms=True)

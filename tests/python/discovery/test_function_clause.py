@@ -23,7 +23,7 @@ def term(value_mm: float, sigma_mm: float, name: str = NAME) -> Term:
 
 
 def test_a_cause_that_geometry_mostly_takes_is_not_said_to_be_nothing() -> None:
-    """Two legs by the angle of their joints are two sliders nearer to each other: 65 um either way."""
+    """Two legs by the angle of their joints are two sliders nearer to each other: 65 µm either way."""
     clause = function_clause(term(0.01, 0.065))
     assert clause == "lengths of legs 1 and 2: follows the joint angle, by how much geometry tells as well"
     assert "distinguishable" not in clause
