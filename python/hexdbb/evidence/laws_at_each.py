@@ -106,7 +106,9 @@ class LawsAtEach:
             best = max(every, key=lambda each: every[each])
             every |= {each: explained(each) for each in (best - step, best + step)}
         best = max(every, key=lambda each: every[each])
-        if every[best] < self._explains(fitted.linear, law) + criteria.detect_nats:
+        # A law that pushes next to nothing costs no evidence: beside legs that grow alike it would be the best of all.
+        before = max(self._explains(fitted.linear, law), self._evidence(fitted.linear))
+        if every[best] < before + criteria.detect_nats:
             return fitted
         held = model.with_values(np.where(shape, best * model.prior_sigma, model.values))
         found = self._engine.fit(held.with_free(held.free & ~shape))
@@ -152,9 +154,11 @@ class LawsAtEach:
         return float(np.sqrt(total / len(at_each(law.shared)) + others))
 
     def _explains(self, linear: Linear, law: Law) -> float:
-        wide = linear.wider(law.differences)
-        white = Sums(wide, self._functions.readings, ()).whole.own
-        return float(wide.log_evidence + 0.5 * white @ white)
+        return self._evidence(linear.wider(law.differences))
+
+    def _evidence(self, linear: Linear) -> float:
+        white = Sums(linear, self._functions.readings, ()).whole.own
+        return float(linear.log_evidence + 0.5 * white @ white)
 
     def _values(self, linear: Linear) -> Floats:
         return Sums(linear, self._functions.readings, ()).whole.own_values()

@@ -21,7 +21,9 @@ from hexdbb.learned import Learned, number_of
 from hexdbb.learned.numbered import creeps
 from hexdbb.learned.places import EACH
 from hexdbb.model import new_model
+from hexdbb.samples import Samples
 from hexdbb.samples.places import with_set_up_of
+from hexdbb_truth.forms.cases import case
 
 EFFECTS = ("backlash", "leg_thermal", "pitch_cyclic")
 
@@ -68,6 +70,17 @@ def test_the_law_is_sought_with_six_sizes_of_it(search: Search) -> None:
     assert 1800.0 * np.exp(values["log_time"]) == pytest.approx(578.0, rel=0.1)
     assert values["per_time"] > 0.0
     assert "log_time" not in {found.model.parameters()[place].name for place in found.free}
+
+
+def test_legs_that_grow_alike_keep_their_time_constant() -> None:
+    """A law of a time so short that it pushes next to nothing costs no evidence: it was the best of all shapes."""
+    samples = Samples.of([case("leg_thermal-d0-x10-calibrate-s66").record()])
+    model = with_set_up_of(samples, new_model(samples.machine))
+    search = Search(Engine(samples, model, noise_of(samples), DEFAULT), EFFECTS, DEFAULT)
+    known = Known("leg_thermal", ("1",), True)
+    alone = fitted(search.engine, (Member(known),))
+    assert search.trials.forms.laws.with_best_shape(alone, known) is alone
+    assert search.trials.of((Member(known),)).left < 1.0
 
 
 def test_the_law_with_a_size_at_each_is_one_function(search: Search, trial: Trial) -> None:
