@@ -2,9 +2,9 @@
 
 Of one look all causes that are known for sure are added, the largest first. An early choice may have stood in for what
 a later one explains better; after every look each earlier one is therefore taken out on trial, and for good where the
-model without it has more evidence. An effect that the readings cannot tell from another is never added, nor is one that
-has been taken out before. What the forms of the effects found leave is added on demand, as functions that describe
-them.
+model without it has more evidence. What is calibrated, and is off, is fitted from then on. An effect that the readings
+cannot tell from another is never added, nor is one that has been taken out before. What the forms of the effects found
+leave is added on demand, as functions that describe them.
 """
 
 from __future__ import annotations
@@ -81,7 +81,7 @@ def discover_all(
     for _ in range(MAX_LOOKS):
         found = discover(samples, model, candidates, progress, matters_um=matters_um)
         sure = [each.choice for each in found.causes if each.verdict == "effect"] if found.verdict == "effect" else []
-        choices = [each for each in sure if each not in tried]
+        choices = [each for each in (*found.calibrated, *sure) if each not in tried]
         forms_of = _describing(found, choices) if forms else ()
         refining = [each for each in dict.fromkeys(forms_of) if each not in tried and model.term(each) is None]
         earlier, before = tuple(added), model

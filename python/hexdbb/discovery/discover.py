@@ -12,27 +12,21 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hexdbb import _core
-from hexdbb.diagnosis import (
-    FitTest,
-    JudgingNoise,
-    Sufficiency,
-    assess_sufficiency,
-    explains_changes,
-    glitches_in,
-    glitches_sentence,
-    judging_noise,
-)
+from hexdbb.diagnosis import Sufficiency, explains_changes
+from hexdbb.discovery.begun import Begun, begin
+from hexdbb.discovery.calibrated import Calibrated
 from hexdbb.discovery.causes import Told, told
 from hexdbb.discovery.own_effects import require_usable_effects
 from hexdbb.discovery.result import Discovery
 from hexdbb.discovery.unexplained import unexplained_structure
-from hexdbb.discovery.words import NOTHING
+from hexdbb.discovery.words import NOTHING, joined
 from hexdbb.errors import InputError
 from hexdbb.evidence.criteria import DEFAULT, Criteria
 from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.quieter import judged
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.sufficiency import repeats_but_for_forms
+from hexdbb.evidence.verdict import Verdict
 from hexdbb.model import Model
 from hexdbb.samples import Samples, predict
 from hexdbb.samples.places import with_set_up_of
@@ -93,18 +87,23 @@ def discover(
     names = _asked(samples, known, candidates)
     require_usable_effects(samples, known, names)
     progress("fitting the model as it is")
-    begun = _begun(samples, with_judged_free(samples.unmeasured, known), criteria)
-    suffices = begun.suffices(matters_um)
-    enough = suffices(begun.engine.base, begun.engine.residual_mm)
+    begun = begin(samples, with_judged_free(samples.unmeasured, known), criteria)
+    enough = begun.enough(matters_um)
     if not enough.matters:
         return _with_remarks(_nothing(begun.engine, enough), begun)
+    calibrated = Calibrated.of(begun.engine.base)
+    fitting = begin(samples, calibrated.model, criteria) if calibrated.names else None
+    if fitting is not None and not (less := fitting.enough(matters_um)).matters:
+        return _with_calibrated(_with_remarks(_nothing(fitting.engine, less), fitting), fitting, calibrated)
     progress("screening all hypotheses, fitting the best")
-    first = Search(begun.engine, names, criteria, learns=not known_only)
-    search, verdict = judged(first, enough.matters_um)
-    if search is not first:
-        begun = begun.by_noise_of(search.engine)
-        suffices = begun.suffices(matters_um)
-        enough = suffices(begun.engine.base, begun.engine.residual_mm)
+    look = _Look.of(begun, names, matters_um, learns=not known_only)
+    other = None
+    if fitting is not None and calibrated.is_off(look.search, look.verdict.node.trial):
+        progress(f"screening again, {joined(calibrated.names)} fitted")
+        other = _Look.of(fitting, names, matters_um, learns=not known_only)
+        look = other if other.is_better(look) else look
+    begun, search, verdict = look.begun, look.search, look.verdict
+    suffices, enough = begun.suffices(matters_um), begun.enough(matters_um)
     engine, samples, noise = begun.engine, begun.engine.samples, begun.judging.noise
     outcome = _outcome(told(search, verdict, suffices, enough.matters_um, with_tables), engine, enough)
     repeats = verdict.grade == "none" and repeats_but_for_forms(search.root.trial, search.trials, begun.judging)
@@ -112,47 +111,37 @@ def discover(
         residual_mm = predict(samples, outcome.model).residual_mm
         structure = unexplained_structure(samples, outcome.model, residual_mm, noise)
         outcome = replace(outcome, structure=structure)
-    return _with_remarks(outcome, begun, repeats=repeats)
+    outcome = _with_remarks(outcome, begun, repeats=repeats)
+    return _with_calibrated(outcome, begun, calibrated) if look is other else outcome
 
 
 @dataclass(frozen=True)
-class _Begun:
-    """What a search begins with: readings that do not stand alone, the noise they are judged by, what was left out."""
+class _Look:
+    """A search, its verdict, and what it began with."""
 
-    engine: Engine
-    judging: JudgingNoise
-    left_out: str | None
+    begun: Begun
+    search: Search
+    verdict: Verdict
 
-    def by_noise_of(self, engine: Engine) -> _Begun:
-        """Return the same readings judged by the noise of another engine of them."""
-        return replace(self, engine=engine, judging=replace(self.judging, noise=engine.noise))
+    @classmethod
+    def of(cls, begun: Begun, names: Sequence[str], matters_um: float | None, *, learns: bool) -> _Look:
+        """Search what a model lacks, by the noise of what is left where that is much less."""
+        first = Search(begun.engine, list(names), begun.engine.criteria, learns=learns)
+        search, verdict = judged(first, begun.enough(matters_um).matters_um)
+        return cls(begun if search is first else begun.by_noise_of(search.engine), search, verdict)
 
-    def suffices(self, matters_um: float | None) -> Callable[[Model, np.ndarray], Sufficiency]:
-        """Return what tells whether a model, and what it leaves, is sufficient."""
-        samples = self.engine.samples
-        test = FitTest(samples, self.judging.noise)
-
-        def sufficiency(fitted: Model, residual_mm: np.ndarray) -> Sufficiency:
-            return assess_sufficiency(
-                samples, fitted, residual_mm, noise=self.judging, matters_um=matters_um, test=test
-            )
-
-        return sufficiency
+    def is_better(self, other: _Look) -> bool:
+        """Check that what was found has more evidence than what another look found, by the noise of that."""
+        trial, engine = self.verdict.node.trial, self.search.engine
+        by_own = 0.5 * len(engine.readings) * trial.left
+        by_other = by_own * (engine.noise.sigma_mm / other.search.engine.noise.sigma_mm) ** 2
+        return self.verdict.node.score + by_own - by_other > other.verdict.node.score
 
 
-def _begun(samples: Samples, model: Model, criteria: Criteria) -> _Begun:
-    judging = judging_noise(samples)
-    engine = Engine(samples, model, judging.noise, criteria)
-    alone = glitches_in(samples, engine.residual_mm, judging.noise.sigma_mm)
-    kept, left_out = samples, None
-    if alone.any():
-        kept = samples.part(~alone)
-        judging = judging_noise(kept)
-        left_out = glitches_sentence(samples, engine.residual_mm, alone)
-    quieter = judging.beside(kept, engine.residual_mm[~alone])
-    if left_out is not None or quieter is not judging:
-        engine = Engine(kept, model, quieter.noise, criteria)
-    return _Begun(engine, quieter, left_out)
+def _with_calibrated(found: Discovery, begun: Begun, calibrated: Calibrated) -> Discovery:
+    """Add how far off is what is calibrated, and was fitted."""
+    sentences = calibrated.sentences(begun.engine, found.model)
+    return replace(found, remarks=(*sentences, *found.remarks), calibrated=calibrated.names)
 
 
 def absent_effects(model: Model) -> list[str]:
@@ -193,7 +182,7 @@ def _outcome(found: Told, engine: Engine, enough: Sufficiency) -> Discovery:
     )
 
 
-def _with_remarks(found: Discovery, begun: _Begun, *, repeats: bool = False) -> Discovery:
+def _with_remarks(found: Discovery, begun: Begun, *, repeats: bool = False) -> Discovery:
     """Add what was left out or not measured, and what laps tell of the noise.
 
     A machine that does not repeat does not lack nothing, unless the model explains why (a screw that warms), or it

@@ -157,6 +157,8 @@ class DiscoveryJson(JsonResult):
     """Remarks, in sentences."""
     refinements: tuple[str, ...]
     """Learned functions that describe the forms of effects in the model, where nothing else is missing."""
+    calibrated: tuple[str, ...]
+    """Effects that the model holds, as calibrated, and that were fitted, since the readings contradict it."""
     steps: tuple[AddedJson, ...]
     """With --auto, what was done to the model, as hexdbb add prints it, schema aside; the rest is the last verdict."""
     closing: str | None

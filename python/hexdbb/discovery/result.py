@@ -221,6 +221,8 @@ class Discovery:
         With the learned causes too, fitted; None where no cause is learned, or none that a model can hold.
     refinements : tuple of str
         Learned functions that describe the forms of effects which the model has, where nothing else is missing.
+    calibrated : tuple of str
+        Effects that the model holds, as its bar's length is calibrated, and `base` fits: the readings contradict it.
     """
 
     verdict: Verdict
@@ -241,6 +243,7 @@ class Discovery:
     likely: str = ""
     learned: Model | None = None
     refinements: tuple[str, ...] = ()
+    calibrated: tuple[str, ...] = ()
 
     @property
     def best(self) -> Cause | None:
@@ -301,6 +304,7 @@ class Discovery:
             structure=tuple(each.to_json() for each in self.structure),
             remarks=self.remarks,
             refinements=self.refinements,
+            calibrated=self.calibrated,
             steps=tuple(added_json(each) for each in steps),
             closing=closing,
         ).to_json()

@@ -9,7 +9,7 @@ import numpy as np
 from hexdbb.discovery.result import Grouping
 from hexdbb.evidence.heldout import HeldOut
 from hexdbb.learned import Learned, describe
-from hexdbb.learned.numbered import NUMBERED, creeps, has_chosen_period, is_relay, number_of
+from hexdbb.learned.numbered import NUMBERED, creeps, has_chosen_period, is_relay, number_of, period_of_wave
 from hexdbb.learned.shown import sentence, whole_place_words
 from hexdbb.learned.words import UM_PER_MM
 from hexdbb.model import Term
@@ -64,6 +64,9 @@ def place_clause(hypothesis: Learned) -> str:
     if creeps(variable):
         return _creep_clause(hypothesis)
     if NUMBERED in variable.name:
+        if (period_mm := period_of_wave(variable.times)) is not None:
+            by = variable.name.partition("_")[0]
+            return f"{place}: repeats every {period_mm:.4g} mm of travel, more or less by its {by}"
         otherwise = ", otherwise at each feed" if variable.beside else ""
         repeats = f"repeats every {variable.period:.4g} {variable.unit}{otherwise}"
         return f"{place}: {repeats if has_chosen_period(variable) else f'follows the {variable.words}'}"

@@ -27,6 +27,7 @@ CLAUSES = {
     "bar_drift": "the gauge drifts by {rate}",
     "bar_gain": "the gauge's scale is off by {gain}",
     "sample_delay": "the gauge is read {delay} later than the encoders",
+    "bar_length": "the bar is {longer} longer than its calibration says",
     "ball_rotation": "the ball's holder, or the triangle of joints, is turned by {about_x}, {about_y} and {about_z}",
     "ball_eccentricity": "the bar's ball sits otherwise in set-up {element}: by {x}, {y} and {z}",
 }

@@ -21,7 +21,7 @@ from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.trial import Member, Trial
 from hexdbb.evidence.trials import Trials
 from hexdbb.learned import Learned, Variable, has_chosen_number, number_of
-from hexdbb.learned.numbered import has_chosen_period, rate_of
+from hexdbb.learned.numbered import has_chosen_period, rate_of, repeats_over
 
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search
@@ -54,7 +54,7 @@ def best_number(trials: Trials, trial: Trial, member: Member) -> Learned:
     variable, number = learned.variable, number_of(learned.variable)
     step = CONSTANT_STEP
     if has_chosen_period(variable):
-        step = TURN_STEP * number / max(float(np.ptp(readings.state[variable.column])), number)
+        step = TURN_STEP * number / max(float(np.ptp(readings.state[repeats_over(variable)])), number)
     mine = np.array([each.effect == learned.name for each in model.parameters()])
     coefficients = member.factor @ model.values[mine]
     limits = readings.state.space(learned)

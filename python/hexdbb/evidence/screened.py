@@ -22,6 +22,7 @@ from hexdbb.evidence.thinned import Thinned
 from hexdbb.evidence.together import KnownSets, Together
 from hexdbb.evidence.trial import Trial
 from hexdbb.evidence.two_states import relays
+from hexdbb.evidence.waves import waves
 from hexdbb.learned import Learned, is_directed, part_of
 
 if TYPE_CHECKING:
@@ -88,7 +89,7 @@ def _known_beside(search: Search, base: Trial, screen: Screen) -> list[Scored]:
 def screened_further(search: Search, base: Trial, screen: Screen) -> list[Scored]:
     """Screen the further learned hypotheses beside those of a trial, and what readings propose besides.
 
-    Products, memory, neighbours and pairs; two states, vibrations.
+    Products, memory, neighbours and pairs; two states, vibrations, waves of changing amplitude.
 
     Parameters
     ----------
@@ -101,7 +102,11 @@ def screened_further(search: Search, base: Trial, screen: Screen) -> list[Scored
     along = {_directed(each) for each in present} - {None}
     every = [e for e in _absent(base, search.learnable.further.values()) if _directed(e) not in along]
     linear, readings = screen.sums.linear, search.engine.readings
-    proposed = [*relays(linear, readings, search.criteria), *vibrations(linear, readings)]
+    proposed = [
+        *relays(linear, readings, search.criteria),
+        *vibrations(linear, readings),
+        *waves(linear, readings, search.criteria),
+    ]
     search.learnable.propose(proposed)
     found = screen.learned([*every, *varying((each.hypothesis for each in proposed), readings)])
     _add_kin_of_best(search, base, screen, found)

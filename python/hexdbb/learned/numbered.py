@@ -1,9 +1,10 @@
 """Variables whose names carry numbers, which the readings chose: instants, periods, and times that memory lasts.
 
 Steps at instants (`step@12.5/340.2`), what repeats with a period (`time_period@0.25`), by the direction of travel
-besides (`direction_position_period@1.06`: balls that enter and leave a nut), what follows another variable late
-(`leg_force_lagged@12`, a first-order lag), yields to it and slips (`leg_force_slipping@0.06`) or wears off after it
-changed (`joint_angle_relaxing@12`, the variable less the same lag), functions whose effect lingers
+besides (`direction_position_period@1.06`: balls that enter and leave a nut), or more or less by how fast or where the
+slider is (`velocity_wave@20`, `position_wave@20`: cogging that a drive holds down at speed), what follows another
+variable late (`leg_force_lagged@12`, a first-order lag), yields to it and slips (`leg_force_slipping@0.06`) or wears
+off after it changed (`joint_angle_relaxing@12`, the variable less the same lag), functions whose effect lingers
 (`velocity_lingering@300`: a nut that its travel heats), what grows towards an end
 (`time_position_settling@470`, as what warms does), the time since a circle's run-up began (`time_in_sweep_after@45`,
 its angle in degrees), a vector's part along a direction (`acceleration_along@45`, degrees in the x-y plane), and
@@ -58,6 +59,12 @@ BY_MOUNT = "bar_angle_by_mount"
 period has harmonics (`PERIOD_SPLINES`)."""
 BY_FEED = "time_period_by_feed"
 """What repeats in time, otherwise at each feed, is called."""
+WAVES = ("velocity", "position")
+"""Variables by which the amplitude of a wave may change."""
+WAVE, COSINE, SINE = "wave", "cosine", "sine"
+WAVE_SPLINES = 12
+"""Splines of a wave's amplitude, over velocity or position: as many as a slider's velocity has, since cogging dies away
+within a small part of the range."""
 LAGGED, RELAXING, SETTLING, AFTER, ALONG, TURNING = "lagged", "relaxing", "settling", "after", "along", "turning"
 CREEP = f"growth_{SETTLING}"
 """What a growth towards an end is called that multiplies no function of another state."""
@@ -150,6 +157,32 @@ def by_direction(variable: Variable) -> Variable:
         words=f"{variable.words}, by direction of travel",
         times="travel_direction",
     )
+
+
+def wave(variable: Variable, period: float) -> Variable:
+    """Return what repeats with a period of the slider's position (mm), by an amplitude that another variable makes.
+
+    Cosine and sine of the phase, each times a function of the variable: a drive holds down at some speeds, and not at
+    others, what its motor or its balls do; a gear, or a screw that is worn, waves most in one part of the travel.
+    """
+    number = f"{period:.{PERIOD_DIGITS}g}"
+    column = REPEATING["position"][0]
+    cosine, sine = (f"{column}{OF_MEMORY}{each}@{number}" for each in (COSINE, SINE))
+    return replace(
+        variable,
+        name=f"{variable.name}_{WAVE}@{number}",
+        words=f"{variable.words}, times a wave over {float(number):.4g} mm of its position",
+        count=WAVE_SPLINES,
+        times=sine,
+        beside=(cosine,),
+        signed=False,
+    )
+
+
+def period_of_wave(times: str) -> float | None:
+    """Return the period of a wave that multiplies functions; None where what multiplies them is none."""
+    how, _, number = times.partition(OF_MEMORY)[2].partition("@")
+    return float(number) if how in (COSINE, SINE) else None
 
 
 def following(variable: Variable, how: str, constant: float) -> Variable:
@@ -304,8 +337,14 @@ def has_chosen_number(variable: Variable) -> bool:
 
 def has_chosen_period(variable: Variable) -> bool:
     """Whether that number is a period; what turns with the screw may have another."""
-    kinds = (*(f"{each}_period" for each in REPEATING), BY_FEED)
+    kinds = (*(f"{each}_period" for each in REPEATING), BY_FEED, *(f"{each}_{WAVE}" for each in WAVES))
     return any(variable.name.removeprefix("direction_").startswith(f"{each}{NUMBERED}") for each in kinds)
+
+
+def repeats_over(variable: Variable) -> str:
+    """Return the column over which something repeats with a period that readings chose."""
+    is_wave = period_of_wave(variable.times) is not None
+    return variable.times.partition(OF_MEMORY)[0] if is_wave else variable.column
 
 
 def number_of(variable: Variable) -> float:
@@ -367,6 +406,8 @@ def numbered(name: str, variables: Sequence[Variable]) -> Variable | None:
         listed = next((each for each in variables if each.name.startswith(f"{kind}@")), None)
         return replace(along(of, values[0]), count=listed.count, is_coarse=listed.is_coarse) if listed else None
     known = {each.name: each for each in variables}
+    if how == WAVE:
+        return wave(known[of], values[0]) if of in WAVES and of in known else None
     if how not in BY_NUMBER or of not in known or (how == TURNING and turns_with(known[of]) is None):
         return None
     return following(known[of], how, values[0])

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexdbb.learned.forms import Fit, Floats, fits
-from hexdbb.learned.numbered import turns_gradually
+from hexdbb.learned.numbered import period_of_wave, turns_gradually
 from hexdbb.learned.tables import Curve
 from hexdbb.learned.variable import BENT, ELAPSED, OF_MEMORY
 
@@ -101,7 +101,7 @@ def describe(curve: Curve, period: float = 0.0) -> Form:
     period : float
         Of its variable; 0 where it is not periodic.
     """
-    turned = GRADUAL if turns_gradually(curve.times) else TIMES.get(curve.times.partition(OF_MEMORY)[0], "")
+    turned = _turned(curve.times)
     values = curve.value_mm - (np.median(curve.value_mm) if len(curve.at) > 2 and not curve.times else 0.0)
     if not np.any(np.abs(values) > CERTAIN * np.nan_to_num(curve.sigma_mm)):
         return Form("nothing", None, "not distinguishable from zero")
@@ -125,6 +125,16 @@ def describe(curve: Curve, period: float = 0.0) -> Form:
         return Form("varies", None, f"varies between {low:.1f} and {high:.1f} µm{turned}")
     kind = "drift" if best.kind == "linear" and curve.column == "time_s" else best.kind
     return Form(kind, best, _words(best, curve) + turned)
+
+
+def _turned(times: str) -> str:
+    """Return what multiplies a function, in words."""
+    if turns_gradually(times):
+        return GRADUAL
+    column, _, how = times.partition(OF_MEMORY)
+    if (period := period_of_wave(times)) is not None:
+        return f", times the {how.partition('@')[0]} of its phase in {period:.4g} mm"
+    return TIMES.get(column, "")
 
 
 def shown_places(curve: Curve) -> tuple[str, Floats]:

@@ -4,7 +4,8 @@ Rubber yields late, grease and warmth follow slowly: what acts is a state as it 
 first order, y' = (x - y) / tau, x linear between samples; what relaxes is x - y. Between two sweeps it follows what the
 machine is taken to have done (`over_time.py`). A time after a run-up of some degrees is one to which is added what
 these take at the rate at which the circle is driven. What is `along` so many degrees is a vector's part along that
-direction in the base's x-y plane. What is `slipping` follows a change until it is so far from where it would rest, and
+direction in the base's x-y plane, and `cosine` and `sine` are those of a position's phase in a period. What is
+`slipping` follows a change until it is so far from where it would rest, and
 slips beyond: an elastic contact with friction. What is `turning` is the sign of a rate, which is smoothed at zero:
 rate / sqrt(rate² + number²), as regularised Coulomb friction is.
 """
@@ -24,8 +25,9 @@ Floats = NDArray[np.float64]
 
 FAR = "180"
 """Behind `lagged`, `relaxing` or `slipping`: every circle is run up to along so many degrees."""
-HOW = rf"(?:lagged|relaxing|slipping)(?:{FAR})?|after|along|turning"
+HOW = rf"(?:lagged|relaxing|slipping)(?:{FAR})?|after|along|turning|cosine|sine"
 NAME = re.compile(rf"(?P<column>\w+)\.(?P<how>{HOW})@(?P<constant>[0-9.e+-]+)")
+PHASES = {"cosine": np.cos, "sine": np.sin}
 LONGEST = 30.0
 """Time constants in one block of a recursion that is summed at once: e to the 30th is far from the largest number."""
 
@@ -48,10 +50,10 @@ def remembered_column(
     Parameters
     ----------
     how : str
-        `lagged`, `relaxing`, `slipping`, with `FAR` behind it or not, `after`, `along` or `turning`.
+        `lagged`, `relaxing`, `slipping`, with `FAR` behind it or not, `after`, `along`, `turning`, `cosine` or `sine`.
     constant : float
         Its time constant, s; of `after` the run-up, of `along` the direction, degrees; of `slipping` the farthest that
-        it yields, in the column's unit; of `turning` a rate.
+        it yields, in the column's unit; of `turning` a rate; of `cosine` and `sine` the period.
     column : ndarray, shape (n,) or (n, k)
     time_s, angle_rad : ndarray, shape (n,)
         Times rise within a sweep; polar angles with or without their turns.
@@ -62,6 +64,8 @@ def remembered_column(
         return np.asarray(values[:, :2] @ np.array([np.cos(np.radians(constant)), np.sin(np.radians(constant))]))
     if how == "turning":
         return np.asarray((values / np.hypot(values, constant)).reshape(column.shape))
+    if how in PHASES:
+        return np.asarray(PHASES[how](2.0 * np.pi * values / constant).reshape(column.shape))
     sweeps = sweeps_of(sweep)
     if how == "after":
         run_up_s = [np.radians(constant) / _rate_rad_s(time_s[rows], angle_rad[rows]) for rows in sweeps]

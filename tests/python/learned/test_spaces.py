@@ -100,6 +100,7 @@ def test_even_splines_say_powers_exactly(columns: Rows, power: int) -> None:
         ("learned:slider:2:fine_position", [64, 128, 256, 512]),
         ("learned:slider:2:position_period@7.3", [8, 16, 32, 64, 128]),
         ("learned:slider:2:direction_position_period@7.3", [8, 16, 32, 64, 128]),
+        ("learned:slider:2:velocity_wave@7.3", [12, 24, 48, 96, 192]),
         ("learned:slider:2:position_each_way", [14, 28, 56, 112, 224]),
         ("learned:slider:2:direction", []),
         ("learned:slider:2:step@3.5", []),

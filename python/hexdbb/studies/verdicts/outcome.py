@@ -78,6 +78,8 @@ VARIABLES = {
     "leg_in_base": ("joint_angle",),
     "screw_wave_position": ("position",),
     "screw_wave_velocity": ("position", "velocity"),
+    "position_wave": ("position",),
+    "velocity_wave": ("position", "velocity"),
     "course": ("direction",),
     "course_speed": ("direction", "velocity"),
 }

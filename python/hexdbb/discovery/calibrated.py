@@ -1,0 +1,91 @@
+"""What is calibrated, and taken as it is stated: fitted all the same where the readings contradict it.
+
+A new model holds the length of the bar. Where it is some micrometres off, what is missing is no fault of the machine,
+and no function of the machine's state says it: by geometry bent far beyond what machines have, a clean one was a gauge
+that reads by the platform's yaw.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from hexdbb import _core
+from hexdbb.effects.words import effect_clause
+from hexdbb.evidence.engine import Engine
+from hexdbb.evidence.search import Search
+from hexdbb.evidence.sums import Sums
+from hexdbb.evidence.trial import Trial
+from hexdbb.model import Model, Size, default_effects
+from hexdbb.units import shown_factor, shown_unit
+
+
+@dataclass(frozen=True)
+class Calibrated:
+    """Effects whose values a new model holds.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Of those that a model holds too; none where it fits them.
+    model : Model
+        The model with these fitted.
+    """
+
+    names: tuple[str, ...]
+    model: Model
+
+    @classmethod
+    def of(cls, model: Model) -> Calibrated:
+        """Return those of a model."""
+        held = {name for name, is_free in default_effects(model.machine).items() if not is_free}
+        named = zip(model.parameters(), model.free, strict=True)
+        names = tuple(dict.fromkeys(each.effect for each, is_free in named if each.effect in held and not is_free))
+        return cls(names, model.with_free(model.free | [each.effect in names for each in model.parameters()]))
+
+    def is_off(self, search: Search, trial: Trial) -> bool:
+        """Check whether readings say, beside all that was found, that a value is off: by the evidence that it adds.
+
+        To first order, with the priors of these values.
+
+        Parameters
+        ----------
+        search : Search
+            Of the model that holds them.
+        trial : Trial
+            What was found.
+        """
+        engine, held = search.engine, search.trials.linear(trial)
+        plain = engine.without_learned(trial.model)
+        columns = [place for place, each in enumerate(plain.parameters()) if each.effect in self.names]
+        jacobian = _core.predict(*engine.plain(trial.model), want_jacobian=True).jacobian[:, columns]
+        fitted = held.wider(jacobian * plain.prior_sigma[columns] / engine.row_noise_mm[:, None])
+        white = [Sums(each, engine.readings, ()).whole.own for each in (held, fitted)]
+        gain = fitted.log_evidence - held.log_evidence + 0.5 * float(white[1] @ white[1] - white[0] @ white[0])
+        return gain > search.criteria.detect_nats
+
+    def sentences(self, engine: Engine, model: Model) -> Iterator[str]:
+        """Yield how far off each value is.
+
+        Parameters
+        ----------
+        engine : Engine
+            Of the model that fits them.
+        model : Model
+            The same with all that was found.
+        """
+        fitted = engine.linearised(model)
+        own = fitted.linear.own
+        sigma = dict(zip(fitted.free, np.sqrt(np.diag(np.linalg.inv(own.T @ own + np.eye(own.shape[1])))), strict=True))
+        parameters = model.parameters()
+        for name in self.names:
+            sizes = []
+            for place, each in enumerate(parameters):
+                if each.effect == name and place in sigma:
+                    factor = shown_factor(each.unit)
+                    spread = float(sigma[place] * model.prior_sigma[place]) * factor
+                    value = float(model.values[place]) * factor
+                    sizes.append(Size(each.element, each.name, value, spread, shown_unit(each.unit)))
+            yield f"{effect_clause(model.info(name), sizes)}: fitted here; hexdbb add {name} puts it into the model"

@@ -1,0 +1,49 @@
+"""What is calibrated, and off: fitted where readings contradict it, and no fault of the machine."""
+
+from __future__ import annotations
+
+from tests.foreign_records import found_in, samples_of
+
+from hexdbb.discovery import Discovery, discover_all
+from hexdbb.discovery.calibrated import Calibrated
+from hexdbb.model import Choice, new_model
+
+LONGER = "clean-with-a-longer-bar"
+"""No fault; a bar of 150 mm, 9.2 um longer than stated, noise 0.15 um."""
+
+
+def test_a_clean_machine_is_clean_with_a_longer_bar() -> None:
+    """It was a gauge that reads by the platform's yaw, with sides of the platform longer by 1.5 to 1.9 mm."""
+    found = found_in(LONGER)
+    assert found.verdict == "none"
+    assert found.calibrated == ("bar_length",)
+    assert not found.sufficiency.matters
+    said = found.remarks[0]
+    assert said.startswith("the bar is 9.")
+    assert said.endswith("hexdbb add bar_length puts it into the model")
+    parameters = found.base.parameters()
+    place = next(k for k, each in enumerate(parameters) if each.effect == "bar_length")
+    assert found.base.free[place]
+    assert abs(found.base.values[place] - 9.2e-3) < 0.5e-3
+
+
+def test_it_is_added_first_and_not_again() -> None:
+    samples = samples_of(LONGER)
+    step, last = discover_all(samples, new_model(samples.machine))
+    assert not isinstance(step, Discovery)
+    assert (step.what, step.choice) == ("add", "bar_length")
+    assert isinstance(last, Discovery)
+    assert (last.verdict, last.calibrated) == ("none", ())
+
+
+def test_a_bar_as_long_as_stated_stays_so() -> None:
+    found = found_in("bow-small")
+    assert found.causes
+    assert found.calibrated == ()
+    assert not any("bar" in each for each in found.remarks)
+
+
+def test_what_a_model_fits_already_is_not_asked_for() -> None:
+    model = new_model(samples_of(LONGER).machine)
+    assert Calibrated.of(model).names == ("bar_length",)
+    assert Calibrated.of(model.with_effect(Choice.parse("bar_length"))).names == ()
