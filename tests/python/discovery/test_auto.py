@@ -64,7 +64,7 @@ def test_a_function_that_the_model_has_is_not_added_again(
     samples = Samples.of([measured("backlash-x3-s1")])
     name = "learned:slider:4:position"
     model = add_effect(samples, new_model(samples.machine), name).model
-    look = SimpleNamespace(verdict="none", causes=(), refinements=(name, name))
+    look = SimpleNamespace(verdict="none", causes=(), calibrated=(), refinements=(name, name))
     monkeypatch.setattr("hexdbb.discovery.auto.discover", lambda *_, **__: look)
     assert [*discover_all(samples, model, forms=True)] == [look]
 

@@ -18,6 +18,7 @@ from hexdbb.plots.analysis_pages import discovery_pages
 NUMBERS = {"rail-warms": 470.4, "fan-cools": 16.0, "nut-heats": 304.0, "cover-jams": 2.5}
 NUMBERS |= {"legs-breathe": 702.0, "nut-lifts": 190.0, "motor-heats-foot": 94.6, "end-heats-leg": 18.26}
 NUMBERS |= {"rail-end-lifts": 522.0, "counterbalance-cycles": 147.0}
+NUMBERS |= {"cogging-damped-by-speed": 20.0}
 NUMBERS |= {"clamp-leaks": 20.432, "column-sways": 430.0, "mains-hums": 1.0 / 49.963, "post-shakes": 1.0 / 4.63}
 """True value of the number in the name of the cause, by record: s or mm."""
 MISSED = 0.2**0.5
@@ -137,6 +138,8 @@ moves the best direction by two degrees, a fifteenth of what lies between two th
         ("joint-sticks", "learned:leg:1:inclination_slipping@", {"circle", "feed", "direction", "lap"}),
         # A drive that falls behind above 12 mm/s only: a lag for sure, whose formula said nearly nine tenths of it.
         ("lags-above-a-speed", "learned:slider:2:velocity", {"circle", "feed", "direction", "lap"}),
+        # Cogging that a drive holds down at speed, by exp(-v / 8 mm/s): a rail each way and a ball, after two minutes.
+        ("cogging-damped-by-speed", "learned:slider:4:velocity_wave@", {"circle", "feed", "lap"}),
         # A gauge that reads short away from its middle, with a flaw at one place: a wrong gain for sure.
         ("gauge-saturates", "learned:reading:deflection", {"circle", "feed", "direction", "lap"}),
     ],
@@ -242,6 +245,10 @@ def test_one_leg_that_gives_is_no_sag_of_all() -> None:
         ("battery-sags", {"servo_lag:3", "learned:reading:time_period"}),
         # The cage of a screw's bearing, whose period is no part of the lead's, and legs that grow.
         ("bearing-and-legs", {"leg_thermal", "learned:slider:1:fine_position"}),
+        # A cup that creeps after each fixing, one a circle: a screw that grows, by the functions of its form.
+        ("creep-after-each-fixing", {"pitch_cyclic:2", "learned:cup:time_in_circle"}),
+        # A leg that its motor warms; the bar is 10 um shorter than stated, which was a screw and two more lags.
+        ("lag-and-warm-leg-longer-bar", {"servo_lag:4", "learned:leg:2:velocity_lingering"}),
     ],
 )
 def test_what_no_effect_says_is_found_beside_one(name: str, causes: set[str]) -> None:
