@@ -9,7 +9,6 @@ from hexdbb.evidence.screen import Scored
 from hexdbb.evidence.shortlist import shortlist
 from hexdbb.learned import Learned
 
-
 NONE = np.zeros(0)
 
 
