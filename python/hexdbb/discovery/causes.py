@@ -29,6 +29,7 @@ from hexdbb.evidence.verdict import Found
 from hexdbb.evidence.verdict import Verdict as Judged
 from hexdbb.learned import Learned
 from hexdbb.learned.places import EACH
+from hexdbb.learned.words import CERTAIN
 from hexdbb.model import Model, Size
 
 Floats = NDArray[np.float64]
@@ -85,8 +86,11 @@ def told(search: Search, judged: Judged, judge: Judge, matters_um: float, with_t
     if refining and all(_size_um(search, shares[each.hypothesis]) < matters_um for each in found):
         return _told_forms(search, refining)
     grade = graded(search, judged.node, found[0].grade)
+    exact = exactly(search, judged.node.trial, [each.hypothesis for each in found])
+    if empty := [each for each in found[1:] if is_nothing(search, exact, each.hypothesis)]:
+        found = [each for each in found if each not in empty]
+        exact = exactly(search, judged.node.trial, [each.hypothesis for each in found])
     hypotheses = [each.hypothesis for each in found]
-    exact = exactly(search, judged.node.trial, hypotheses)
     names = [each.name for each in hypotheses if isinstance(each, Learned)]
     learned = with_learned(search.engine.samples, exact.model, names, search.engine.noise)
     told_with = _Models(exact, None if learned is None else learned[0])
@@ -106,6 +110,18 @@ def told(search: Search, judged: Judged, judge: Judge, matters_um: float, with_t
         likely=likely_sentence(causes, judged.checked.share, judged.checked.heldout),
         learned=told_with.learned,
     )
+
+
+def is_nothing(search: Search, exact: ExactFit, cause: Hypothesis) -> bool:
+    """Check for a known effect of which only the functions of its form explain anything: its values are zero.
+
+    Beside a carriage that is pushed aside by the direction of travel "slider 2 has 0.0 ± 0.3 µm of play".
+    """
+    if not isinstance(cause, Known):
+        return False
+    shapes = {each.name for each in search.engine.base.info(cause.effect).parameters if each.is_shape}
+    sizes = [each for each in exact.values_of(cause) if each.name not in shapes]
+    return all(abs(each.value) <= CERTAIN * (each.sigma or 0.0) for each in sizes)
 
 
 def _told_nothing(search: Search, enough: Sufficiency) -> Told:

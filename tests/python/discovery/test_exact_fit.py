@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from hexdbb.diagnosis import noise_of
+from hexdbb.discovery.causes import is_nothing
 from hexdbb.discovery.exact_fit import exactly
 from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.evidence.engine import Engine
@@ -39,3 +40,15 @@ def test_play_of_drives_that_have_none_is_never_negative(measured: Callable[[str
     assert added is not None
     assert np.all(added.values >= 0.0)
     assert exact.model.free.sum() == trial.model.free.sum()
+
+
+def test_a_play_of_nothing_is_no_cause_to_tell(measured: Callable[[str], Record]) -> None:
+    """Slider 4 has play; beside a carriage that was pushed aside "slider 2 has 0.0 ± 0.3 µm of play" was told."""
+    samples = Samples.of([measured("backlash-x3-s1")])
+    model = with_set_up_of(samples, new_model(samples.machine))
+    search = Search(Engine(samples, model, noise_of(samples), DEFAULT), ["backlash", "reversal_spike"], DEFAULT)
+    play, none, spike = Known("backlash", ("4",)), Known("backlash", ("2",)), Known("reversal_spike", ("2",))
+    exact = exactly(search, search.trials.of(tuple(map(Member, (play, none, spike)))), [play, none, spike])
+    assert not is_nothing(search, exact, play)
+    assert is_nothing(search, exact, none)
+    assert is_nothing(search, exact, spike)  # whatever its time, which is a shape
