@@ -22,7 +22,7 @@ from hexdbb.discovery.result import Cause
 from hexdbb.errors import RunError
 from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.learned.places import KINDS, is_learned
-from hexdbb.model import Choice, Model, new_model
+from hexdbb.model import Choice, Model, default_effects
 from hexdbb.samples import Samples, predict
 
 Floats = NDArray[np.float64]
@@ -120,7 +120,7 @@ def _own_values(
     samples: Samples, model: Model, residual_mm: Floats, noise: Noise, judged: Judged
 ) -> LikelyCause | None:
     """Return the geometry as the cause where it is not, or badly, fitted; None where it explains little."""
-    geometry = {term.effect for term in new_model(model.machine).terms}
+    geometry = {name for name, is_free in default_effects(model.machine).items() if is_free}
     wider = model
     for effect in geometry - {term.effect for term in model.terms}:
         wider = wider.with_effect(Choice(effect))
@@ -156,13 +156,14 @@ def _linear_share(samples: Samples, model: Model, residual_mm: Floats, noise: No
 def _missing(samples: Samples, model: Model, judged: Judged) -> LikelyCause | None:
     """Return the effect that is likely missing."""
     found = discover(samples, model, criteria=QUICK, with_tables=False)
-    if not found.causes:
+    if not found.causes and not found.calibrated:
         return None
     with_all = found.learned or found.model
     left_mm = predict(samples, with_all).residual_mm
-    choices = tuple(each.choice for each in found.causes)
+    choices = (*found.calibrated, *(each.choice for each in found.causes))
     subjects = tuple(subject for each in found.causes for subject in subjects_of(each, with_all))
-    return LikelyCause(found.likely, choices, subjects, left_mm, not judged(with_all, left_mm).matters)
+    sentence = found.likely or f"likely cause: {found.remarks[0]}"  # that of what is calibrated, and off
+    return LikelyCause(sentence, choices, subjects, left_mm, not judged(with_all, left_mm).matters)
 
 
 def subjects_of(cause: Cause, model: Model) -> tuple[str, ...]:

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from tests.foreign_records import found_in, samples_of
 
-from hexdbb.discovery import Discovery, discover_all
+from hexdbb.diagnosis import diagnose
+from hexdbb.discovery import Discovery, discover, discover_all, likely_cause
 from hexdbb.discovery.calibrated import Calibrated
 from hexdbb.model import Choice, new_model
+from hexdbb.record import Record
+from hexdbb.samples import Samples, predict
 
 LONGER = "clean-with-a-longer-bar"
 """No fault; a bar of 150 mm, 9.2 um longer than stated, noise 0.15 um."""
@@ -36,9 +41,10 @@ def test_it_is_added_first_and_not_again() -> None:
     assert (last.verdict, last.calibrated) == ("none", ())
 
 
-def test_a_bar_as_long_as_stated_stays_so() -> None:
-    found = found_in("bow-small")
-    assert found.causes
+def test_a_bar_as_long_as_stated_stays_so(measured: Callable[[str], Record]) -> None:
+    record = measured("backlash-x3-s1")
+    found = discover(Samples.of([record]), new_model(record.machine))
+    assert [each.choice for each in found.causes] == ["backlash:4"]
     assert found.calibrated == ()
     assert not any("bar" in each for each in found.remarks)
 
@@ -47,3 +53,13 @@ def test_what_a_model_fits_already_is_not_asked_for() -> None:
     model = new_model(samples_of(LONGER).machine)
     assert Calibrated.of(model).names == ("bar_length",)
     assert Calibrated.of(model.with_effect(Choice.parse("bar_length"))).names == ()
+
+
+def test_a_comparison_leads_with_it() -> None:
+    samples = samples_of(LONGER)
+    model = new_model(samples.machine).with_mounts(samples.mounts)
+    fitted = diagnose(samples, model, check_held_out=False).model
+    cause = likely_cause(samples, fitted, predict(samples, fitted).residual_mm)
+    assert cause is not None
+    assert cause.sentence.startswith("likely cause: the bar is 9.")
+    assert cause.choices == ("bar_length",)
