@@ -33,6 +33,8 @@ from hexdbb.samples.places import with_set_up_of
 from hexdbb.samples.unmeasured import judged_effects, not_measured_sentences, require_judged, with_judged_free
 from hexdbb.threads import one_thread
 
+GRADES = ("none", "effect", "ambiguous", "unknown")
+"""Verdicts, the surest first."""
 Progress = Callable[[str], None]
 
 LEAST_READINGS = 200
@@ -93,12 +95,13 @@ def discover(
         return _with_remarks(_nothing(begun.engine, enough), begun)
     calibrated = Calibrated.of(begun.engine.base)
     fitting = begin(samples, calibrated.model, criteria) if calibrated.names else None
-    if fitting is not None and not (less := fitting.enough(matters_um)).matters:
+    # Beside effects in the model what is left may be their forms, which the search asks for.
+    if fitting is not None and not (begun.engine.present() or (less := fitting.enough(matters_um)).matters):
         return _with_calibrated(_with_remarks(_nothing(fitting.engine, less), fitting), fitting, calibrated)
     progress("screening all hypotheses, fitting the best")
     look = _Look.of(begun, names, matters_um, learns=not known_only)
     other = None
-    if fitting is not None and calibrated.is_off(look.search, look.verdict.node.trial):
+    if fitting is not None and not look.is_sure and calibrated.is_off(look.search, look.verdict.node.trial):
         progress(f"screening again, {joined(calibrated.names)} fitted")
         other = _Look.of(fitting, names, matters_um, learns=not known_only)
         look = other if other.is_better(look) else look
@@ -130,12 +133,28 @@ class _Look:
         search, verdict = judged(first, begun.enough(matters_um).matters_um)
         return cls(begun if search is first else begun.by_noise_of(search.engine), search, verdict)
 
+    @property
+    def is_sure(self) -> bool:
+        """Whether nothing is missing, or every cause is for sure."""
+        return all(each.grade == "effect" for each in self.verdict.found) and self.verdict.grade in ("none", "effect")
+
+    @property
+    def _doubt(self) -> tuple[int, int]:
+        return GRADES.index(self.verdict.grade), len(self.verdict.found)
+
     def is_better(self, other: _Look) -> bool:
-        """Check that what was found has more evidence than what another look found, by the noise of that."""
+        """Check that this says it as surely as another look, with no more causes, and has more evidence.
+
+        By the noise of the other. One value more fits whatever leaves a little: a hose that pulls at the platform was
+        two functions beside a bar that was as long as stated.
+        """
+        if self._doubt > other._doubt:
+            return False
         trial, engine = self.verdict.node.trial, self.search.engine
         by_own = 0.5 * len(engine.readings) * trial.left
         by_other = by_own * (engine.noise.sigma_mm / other.search.engine.noise.sigma_mm) ** 2
-        return self.verdict.node.score + by_own - by_other > other.verdict.node.score
+        gain = self.verdict.node.score + by_own - by_other - other.verdict.node.score
+        return gain > self.search.criteria.margin_nats
 
 
 def _with_calibrated(found: Discovery, begun: Begun, calibrated: Calibrated) -> Discovery:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from hexdbb.errors import RunError
 from hexdbb.evidence.needed import explains_by_its_formula
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.place import at_its_place
 from hexdbb.evidence.readings import ARC
+from hexdbb.evidence.refine import refined
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.settling import explained_by_formulas, explains_nearly, predicts
@@ -38,6 +40,37 @@ def or_by_functions(search: Search, node: Node) -> Node:
     return node
 
 
+def or_by_refinements(search: Search, node: Node, wider: Node) -> tuple[Node, Node]:
+    """Return several causes with the function that refines an effect in its stead, where that alone says more.
+
+    A dent beside legs that sag was a bow by the functions of its form, which have few splines; refined, a finer one
+    said all of it, and the bow nothing.
+
+    Parameters
+    ----------
+    search : Search
+    node, wider : Node
+        Causes, alone and refined; returned as they are where they are one, or for sure.
+    """
+    if len(node.members) < 2 or is_for_sure(search, node):
+        return node, wider
+    for member in node.members:
+        if not is_by_form(search, node, member, search.criteria.formula_names):
+            continue
+        for function in wider.members:
+            is_new = isinstance(function.hypothesis, Learned) and function.hypothesis not in node.hypotheses
+            if not is_new or not at_its_place(search, member.hypothesis, function.hypothesis):
+                continue
+            instead = [function if each is member else each for each in node.members]
+            try:
+                other = search.node(instead, near=wider)
+            except RunError:
+                continue
+            if other.score > wider.score and not other.trial.refused and predicts(search, other):
+                return other, refined(search, other)
+    return node, wider
+
+
 def _or_elsewhere(search: Search, node: Node) -> Node:
     """Return a function elsewhere in place of one effect whose formula explains hardly anything.
 
@@ -61,13 +94,17 @@ def _or_elsewhere(search: Search, node: Node) -> Node:
     return max(found, key=lambda each: each.score, default=node)
 
 
-def is_by_form(search: Search, node: Node, member: Member) -> bool:
-    """Check for a known effect of which the functions of its form explain the larger part of what it does."""
+def is_by_form(search: Search, node: Node, member: Member, least: float | None = None) -> bool:
+    """Check for a known effect of which the formula explains less than a part of what it does.
+
+    The smaller part (`Criteria.formula_most`) where no other is given; the functions of its form explain the rest.
+    """
     form = node.trial.forms[node.members.index(member)]
     if not isinstance(member.hypothesis, Known) or form is None or not form.columns:
         return False
     others = search.trials.of_fewer(node.without(member), node.trial)
-    return not explains_by_its_formula(search, node, form, others, search.criteria.formula_most)
+    least = search.criteria.formula_most if least is None else least
+    return not explains_by_its_formula(search, node, form, others, least)
 
 
 def _instead(search: Search, node: Node, member: Member) -> list[Node]:

@@ -8,7 +8,7 @@ from hexdbb.diagnosis import Sufficiency
 from hexdbb.evidence.admissible import Checked
 from hexdbb.evidence.as_forms import as_forms
 from hexdbb.evidence.beside import with_known_left
-from hexdbb.evidence.by_function import is_by_form, or_by_functions
+from hexdbb.evidence.by_function import is_by_form, or_by_functions, or_by_refinements
 from hexdbb.evidence.by_growth import or_one_that_grows
 from hexdbb.evidence.by_period import with_periods
 from hexdbb.evidence.each_element import or_at_each_element
@@ -144,7 +144,8 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     if (forms := as_forms(search, node)) is not None:
         return Verdict("none", (), search.root, None, before, forms)
     node = in_simple_words(search, with_periods(search, node))
-    node, wider = or_one_place(search, *without_stand_ins(search, node, refined(search, node)))
+    node, wider = or_by_refinements(search, node, refined(search, node))
+    node, wider = or_one_place(search, *without_stand_ins(search, node, wider))
     node, wider = with_known_of_form(search, with_numbers_of(search, node, wider), wider)
     outdone = ""
     if (alone := or_one_element(search, node)) is not node:
