@@ -7,7 +7,7 @@ learned, are searched and decided by their evidence (`hexdbb.evidence`); their o
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from hexdbb.diagnosis import Sufficiency, explains_changes
 from hexdbb.discovery.begun import Begun, begin
 from hexdbb.discovery.calibrated import Calibrated
 from hexdbb.discovery.causes import Told, told
+from hexdbb.discovery.look import Look
 from hexdbb.discovery.own_effects import require_usable_effects
 from hexdbb.discovery.result import Discovery
 from hexdbb.discovery.unexplained import unexplained_structure
@@ -23,18 +24,13 @@ from hexdbb.discovery.words import NOTHING, joined
 from hexdbb.errors import InputError
 from hexdbb.evidence.criteria import DEFAULT, Criteria
 from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.quieter import judged
-from hexdbb.evidence.search import Search
 from hexdbb.evidence.sufficiency import repeats_but_for_forms
-from hexdbb.evidence.verdict import Verdict
 from hexdbb.model import Model
 from hexdbb.samples import Samples, predict
 from hexdbb.samples.places import with_set_up_of
 from hexdbb.samples.unmeasured import judged_effects, not_measured_sentences, require_judged, with_judged_free
 from hexdbb.threads import one_thread
 
-GRADES = ("none", "effect", "ambiguous", "unknown")
-"""Verdicts, the surest first."""
 Progress = Callable[[str], None]
 
 LEAST_READINGS = 200
@@ -99,12 +95,13 @@ def discover(
     if fitting is not None and not (begun.engine.present() or (less := fitting.enough(matters_um)).matters):
         return _with_calibrated(_with_remarks(_nothing(fitting.engine, less), fitting), fitting, calibrated)
     progress("screening all hypotheses, fitting the best")
-    look = _Look.of(begun, names, matters_um, learns=not known_only)
-    other = None
-    if fitting is not None and not look.is_sure and calibrated.is_off(look.search, look.verdict.node.trial):
+    look = Look.of(begun, names, matters_um, learns=not known_only)
+    is_off = fitting is not None and not look.is_sure and calibrated.is_off(look.search, look.verdict.node.trial)
+    if fitting is not None and is_off:
         progress(f"screening again, {joined(calibrated.names)} fitted")
-        other = _Look.of(fitting, names, matters_um, learns=not known_only)
-        look = other if other.is_better(look) else look
+        again = Look.of(fitting, names, matters_um, learns=not known_only)
+        is_off = again.is_better(look)
+        look = again if is_off else look
     begun, search, verdict = look.begun, look.search, look.verdict
     suffices, enough = begun.suffices(matters_um), begun.enough(matters_um)
     engine, samples, noise = begun.engine, begun.engine.samples, begun.judging.noise
@@ -115,46 +112,7 @@ def discover(
         structure = unexplained_structure(samples, outcome.model, residual_mm, noise)
         outcome = replace(outcome, structure=structure)
     outcome = _with_remarks(outcome, begun, repeats=repeats)
-    return _with_calibrated(outcome, begun, calibrated) if look is other else outcome
-
-
-@dataclass(frozen=True)
-class _Look:
-    """A search, its verdict, and what it began with."""
-
-    begun: Begun
-    search: Search
-    verdict: Verdict
-
-    @classmethod
-    def of(cls, begun: Begun, names: Sequence[str], matters_um: float | None, *, learns: bool) -> _Look:
-        """Search what a model lacks, by the noise of what is left where that is much less."""
-        first = Search(begun.engine, list(names), begun.engine.criteria, learns=learns)
-        search, verdict = judged(first, begun.enough(matters_um).matters_um)
-        return cls(begun if search is first else begun.by_noise_of(search.engine), search, verdict)
-
-    @property
-    def is_sure(self) -> bool:
-        """Whether nothing is missing, or every cause is for sure."""
-        return all(each.grade == "effect" for each in self.verdict.found) and self.verdict.grade in ("none", "effect")
-
-    @property
-    def _doubt(self) -> tuple[int, int]:
-        return GRADES.index(self.verdict.grade), len(self.verdict.found)
-
-    def is_better(self, other: _Look) -> bool:
-        """Check that this says it as surely as another look, with no more causes, and has more evidence.
-
-        By the noise of the other. One value more fits whatever leaves a little: a hose that pulls at the platform was
-        two functions beside a bar that was as long as stated.
-        """
-        if self._doubt > other._doubt:
-            return False
-        trial, engine = self.verdict.node.trial, self.search.engine
-        by_own = 0.5 * len(engine.readings) * trial.left
-        by_other = by_own * (engine.noise.sigma_mm / other.search.engine.noise.sigma_mm) ** 2
-        gain = self.verdict.node.score + by_own - by_other - other.verdict.node.score
-        return gain > self.search.criteria.margin_nats
+    return _with_calibrated(outcome, begun, calibrated) if is_off else outcome
 
 
 def _with_calibrated(found: Discovery, begun: Begun, calibrated: Calibrated) -> Discovery:

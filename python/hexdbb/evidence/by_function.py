@@ -58,8 +58,10 @@ def or_by_refinements(search: Search, node: Node, wider: Node) -> tuple[Node, No
         if not is_by_form(search, node, member, search.criteria.formula_names):
             continue
         for function in wider.members:
-            is_new = isinstance(function.hypothesis, Learned) and function.hypothesis not in node.hypotheses
-            if not is_new or not at_its_place(search, member.hypothesis, function.hypothesis):
+            learned = function.hypothesis
+            if not isinstance(learned, Learned) or learned in node.hypotheses:
+                continue
+            if not at_its_place(search, member.hypothesis, learned):
                 continue
             instead = [function if each is member else each for each in node.members]
             try:
