@@ -31,7 +31,7 @@ def _look(grade: str, causes: int, score: float, *, noise_mm: float = 5e-4, sure
         (_look("unknown", 2, -500.0), _look("unknown", 0, -600.0), True),  # nothing tried explained it
         (_look("unknown", 1, -500.0), _look("ambiguous", 1, -600.0), False),
         (_look("effect", 1, -597.0), _look("ambiguous", 1, -600.0), False),  # hardly more evidence
-        # By half of the noise what is left counts four times as much: 2000 nats less by that of the other look.
+        # Judged by half of the noise: by that of the other look what is left costs 375 nats less.
         (_look("effect", 1, -2000.0, noise_mm=2.5e-4), _look("ambiguous", 1, -1700.0), True),
         (_look("effect", 1, -2000.0), _look("ambiguous", 1, -1700.0), False),
     ],
