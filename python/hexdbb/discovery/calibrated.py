@@ -48,7 +48,8 @@ class Calibrated:
     def is_off(self, search: Search, trial: Trial) -> bool:
         """Check whether readings say, beside all that was found, that a value is off: by the evidence that it adds.
 
-        To first order, with the priors of these values.
+        To first order, with the priors of these values. Where much is left, that counts as the noise: some of it looks
+        like any value.
 
         Parameters
         ----------
@@ -64,7 +65,7 @@ class Calibrated:
         fitted = held.wider(jacobian * plain.prior_sigma[columns] / engine.row_noise_mm[:, None])
         white = [Sums(each, engine.readings, ()).whole.own for each in (held, fitted)]
         gain = fitted.log_evidence - held.log_evidence + 0.5 * float(white[1] @ white[1] - white[0] @ white[0])
-        return gain > search.criteria.detect_nats
+        return gain > search.criteria.detect_nats * max(trial.left, 1.0)
 
     def sentences(self, engine: Engine, model: Model) -> Iterator[str]:
         """Yield how far off each value is.

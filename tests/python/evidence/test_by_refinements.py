@@ -1,0 +1,32 @@
+"""A refined function in place of an effect that only the functions of its form make fit."""
+
+from __future__ import annotations
+
+from tests.foreign_records import samples_of
+
+from hexdbb.diagnosis import noise_of
+from hexdbb.evidence.by_function import or_by_refinements
+from hexdbb.evidence.criteria import DEFAULT
+from hexdbb.evidence.engine import Engine
+from hexdbb.evidence.screen import Known
+from hexdbb.evidence.search import Search
+from hexdbb.evidence.trial import Member
+from hexdbb.learned import Learned
+from hexdbb.model import new_model
+from hexdbb.samples.places import with_set_up_of
+
+
+def test_a_dent_beside_legs_that_sag_is_no_bow() -> None:
+    """A dent of 0.15 mm, 21 mm wide: as a bow it left three times the noise, by the functions of its form."""
+    samples = samples_of("dent-beside-sag")
+    model = with_set_up_of(samples, new_model(samples.machine))
+    search = Search(Engine(samples, model, noise_of(samples), DEFAULT), ["gravity_sag", "straightness"], DEFAULT)
+    sag = Member(Known("gravity_sag", tuple("123456"), is_whole=True))
+    node = search.node((Member(Known("straightness", ("2",))), sag), near=search.root)
+    (fine,) = search.tried(node, [search.screen(node).scored(Learned.parse("learned:vertical:2:fine_position"))])
+    assert node.trial.left > 2.0 * fine.trial.left
+    found, _ = or_by_refinements(search, node, fine)
+    assert {*found.trial.names} == {"gravity_sag", "learned:vertical:2:fine_position"}
+    # One cause alone keeps its name: of a bow of which geometry takes nearly all only its form is seen.
+    alone = search.node((sag,), near=search.root)
+    assert or_by_refinements(search, alone, fine) == (alone, fine)
