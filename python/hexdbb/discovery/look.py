@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import get_args
 
 from hexdbb.discovery.begun import Begun
 from hexdbb.evidence.quieter import judged
 from hexdbb.evidence.search import Search
+from hexdbb.evidence.sure import Grade
 from hexdbb.evidence.verdict import Verdict
 
-GRADES = ("none", "effect", "ambiguous", "unknown")
-"""Verdicts, the surest first."""
+GRADES = get_args(Grade)
+"""Verdicts, the surest first, as their type lists them."""
 
 
 @dataclass(frozen=True)

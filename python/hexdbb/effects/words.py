@@ -6,6 +6,7 @@ An effect without words of its own is told by its physics' first sentence and it
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import groupby
 
 from hexdbb import _core
@@ -27,11 +28,12 @@ CLAUSES = {
     "bar_drift": "the gauge drifts by {rate}",
     "bar_gain": "the gauge's scale is off by {gain}",
     "sample_delay": "the gauge is read {delay} later than the encoders",
-    "bar_length": "the bar is {longer} longer than its calibration says",
+    "bar_length": "the bar is {longer} {sense} than its calibration says",
     "ball_rotation": "the ball's holder, or the triangle of joints, is turned by {about_x}, {about_y} and {about_z}",
     "ball_eccentricity": "the bar's ball sits otherwise in set-up {element}: by {x}, {y} and {z}",
 }
-"""Clause on one element; `who` is the element, `grow` or shrink by the sign, the others are values with uncertainty."""
+"""Clause on one element; `who` is the element, `grow` (or shrink) and `sense` (longer or shorter) follow the sign, the
+others are values with uncertainty."""
 MAX_CLAUSES = 2
 """Elements told one by one; of more, which they are, the largest and the smallest: a sentence remains one."""
 
@@ -73,9 +75,12 @@ def _telling(elements: Sequence[tuple[str, Sequence[Size]]]) -> int:
 def _clause(info: _core.EffectInfo, element: str, sizes: Sequence[Size]) -> str:
     who = "the machine" if info.element_kind == "machine" else f"{info.element_kind} {element}"
     values = {size.name: size_words(size) for size in sizes}
-    if info.name in CLAUSES:
-        grow = "shrink" if sizes[_telling([(element, sizes)])].value < 0.0 else "grow"
-        return CLAUSES[info.name].format(who=who, element=element, grow=grow, **values)
+    if (clause := CLAUSES.get(info.name)) is not None:
+        is_less = sizes[_telling([(element, sizes)])].value < 0.0
+        grow, sense = ("shrink", "shorter") if is_less else ("grow", "longer")
+        if "{sense}" in clause:  # which says the sign
+            values = {size.name: size_words(replace(size, value=abs(size.value))) for size in sizes}
+        return clause.format(who=who, element=element, grow=grow, sense=sense, **values)
     physics = info.physics.split(". ")[0].split(": ")[0].rstrip(".")
     told = ", ".join(f"{name} {value}" for name, value in values.items())
     return f"{info.name} of {who} ({physics[:1].lower()}{physics[1:]}): {told}"

@@ -61,7 +61,7 @@ def _is_along(learned: Learned) -> bool:
 
 def _is_unlike(found: Learned, by: str, linear: Linear, readings: Readings) -> bool:
     """Check whether a swing is much smaller in one half of the readings, slow or fast, at one end or the other."""
-    state = readings.state
+    state, own = readings.state, np.abs if by == "velocity" else np.asarray
     phase = 2.0 * np.pi * state[POSITION.column] / found.variable.period
     halves = np.zeros((2, found.components, 2))
     squares = np.zeros((2, found.components))
@@ -69,7 +69,7 @@ def _is_unlike(found: Learned, by: str, linear: Linear, readings: Readings) -> b
         for column, ports in found.pushes(axis, state.machine):
             answer = readings.answer(ports)
             weighted = linear.residual * answer
-            values = np.abs(state[BY[by].column][:, column]) if by == "velocity" else state[BY[by].column][:, column]
+            values = own(state[BY[by].column][:, column])
             half = (values > np.median(values)).astype(int)
             for place, turned in enumerate((np.cos(phase[:, column]), np.sin(phase[:, column]))):
                 halves[:, axis, place] += np.bincount(half, weighted * turned, 2)

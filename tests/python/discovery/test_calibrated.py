@@ -9,12 +9,13 @@ from tests.foreign_records import found_in, samples_of
 from hexdbb.diagnosis import diagnose
 from hexdbb.discovery import Discovery, discover, discover_all, likely_cause
 from hexdbb.discovery.calibrated import Calibrated
-from hexdbb.model import Choice, new_model
+from hexdbb.effects.words import effect_clause
+from hexdbb.model import Choice, Size, new_model
 from hexdbb.record import Record
 from hexdbb.samples import Samples, predict
 
 LONGER = "clean-with-a-longer-bar"
-"""No fault; a bar of 150 mm, 9.2 um longer than stated, noise 0.15 um."""
+"""No fault; a bar of 150 mm, 9.2 µm longer than stated, noise 0.15 µm."""
 
 
 def test_a_clean_machine_is_clean_with_a_longer_bar() -> None:
@@ -63,3 +64,10 @@ def test_a_comparison_leads_with_it() -> None:
     assert cause is not None
     assert cause.sentence.startswith("likely cause: the bar is 9.")
     assert cause.choices == ("bar_length",)
+
+
+def test_a_bar_that_is_shorter_is_said_to_be() -> None:
+    info = new_model(samples_of(LONGER).machine).info("bar_length")
+    for value, sense in ((9.21, "longer"), (-9.21, "shorter")):
+        clause = effect_clause(info, [Size("1", "longer", value, 0.3, "um")])
+        assert clause == f"the bar is 9.2 ± 0.3 µm {sense} than its calibration says"
