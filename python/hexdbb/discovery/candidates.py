@@ -10,7 +10,7 @@ from hexdbb.evidence.node import Node
 from hexdbb.evidence.screen import Hypothesis
 from hexdbb.evidence.search import Search
 from hexdbb.learned import Learned
-from hexdbb.learned.numbered import NUMBERED
+from hexdbb.learned.variable import NUMBERED
 from hexdbb.model import Choice
 
 MAX_CANDIDATES = 6

@@ -9,8 +9,11 @@ import numpy as np
 from hexdbb.discovery.result import Grouping
 from hexdbb.evidence.heldout import HeldOut
 from hexdbb.learned import Learned, describe
-from hexdbb.learned.numbered import NUMBERED, creeps, has_chosen_period, is_relay, number_of, period_of_wave
+from hexdbb.learned.following import creeps, is_relay
+from hexdbb.learned.numbered import number_of
+from hexdbb.learned.repeating import has_chosen_period, period_of_wave
 from hexdbb.learned.shown import sentence, whole_place_words
+from hexdbb.learned.variable import NUMBERED
 from hexdbb.learned.words import UM_PER_MM
 from hexdbb.model import Term
 

@@ -26,7 +26,7 @@ from hexdbb.evidence.settling import (
 )
 from hexdbb.evidence.sure import is_for_sure
 from hexdbb.learned import Learned
-from hexdbb.learned.numbered import TURNING
+from hexdbb.learned.following import TURNING
 
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search

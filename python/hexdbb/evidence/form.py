@@ -21,7 +21,7 @@ from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.signatures import varying
 from hexdbb.learned import ALL, Learned
-from hexdbb.learned.numbered import BY_MOUNT
+from hexdbb.learned.repeating import BY_MOUNT
 from hexdbb.learned.variables import TIME
 from hexdbb.model import Parameter
 

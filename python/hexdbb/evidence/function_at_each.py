@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from hexdbb.evidence.form_functions import FormFunctions
 from hexdbb.evidence.laws_at_each import Law
 from hexdbb.learned import Learned
-from hexdbb.learned.numbered import creep
+from hexdbb.learned.following import creep
 from hexdbb.learned.places import EACH
 
 Floats = NDArray[np.float64]

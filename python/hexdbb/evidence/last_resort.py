@@ -18,7 +18,7 @@ from hexdbb.evidence.shortlist import shortlist
 from hexdbb.evidence.sure import is_for_sure
 from hexdbb.evidence.trial import Trial
 from hexdbb.learned import Learned
-from hexdbb.learned.numbered import TURNING
+from hexdbb.learned.following import TURNING
 
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search

@@ -12,7 +12,8 @@ from hexdbb.evidence.readings import Readings
 from hexdbb.evidence.screen import Hypothesis
 from hexdbb.evidence.signatures import all_varying, varying
 from hexdbb.learned import ALL, Learned, crossed_hypotheses, further_hypotheses, grown_with_warmth, products
-from hexdbb.learned.numbered import by_mount, step
+from hexdbb.learned.numbered import step
+from hexdbb.learned.repeating import by_mount
 from hexdbb.learned.variables import BAR_AZIMUTH
 
 MOST_CIRCLES = 24

@@ -21,7 +21,8 @@ from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.trial import Member, Trial
 from hexdbb.evidence.trials import Trials
 from hexdbb.learned import Learned, Variable, has_chosen_number, number_of
-from hexdbb.learned.numbered import has_chosen_period, rate_of, repeats_over
+from hexdbb.learned.repeating import has_chosen_period, repeats_over
+from hexdbb.learned.signs import rate_of
 
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search

@@ -16,7 +16,7 @@ from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.proposed import Proposal, answers_at, shifting
 from hexdbb.evidence.readings import Linear, Readings
 from hexdbb.learned import ALL, Learned, periodic
-from hexdbb.learned.numbered import by_feed
+from hexdbb.learned.repeating import by_feed
 from hexdbb.machine import MachineFile
 from hexdbb.predictors.periods import COARSE, FINE, LEAST_TURNS, Grid, strongest_frequency
 from hexdbb.samples.distinct import distinct_rows

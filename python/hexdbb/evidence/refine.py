@@ -21,7 +21,7 @@ from hexdbb.evidence.trial import Member, Trial
 from hexdbb.evidence.tuned import axes_of, more_splines, retunings, with_other_splines, with_tuned_numbers
 from hexdbb.evidence.turning import with_turning
 from hexdbb.learned import Learned, part_of
-from hexdbb.learned.numbered import is_directed
+from hexdbb.learned.directed import is_directed
 
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search

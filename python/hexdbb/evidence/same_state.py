@@ -17,8 +17,8 @@ from hexdbb.evidence.screen import Scored
 from hexdbb.evidence.settling import explains_nearly, predicts
 from hexdbb.evidence.signatures import varying
 from hexdbb.learned import Learned, has_chosen_number, number_of
-from hexdbb.learned.numbered import NUMBERED
 from hexdbb.learned.places import OF_GUIDEWAY
+from hexdbb.learned.variable import NUMBERED
 
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search

@@ -23,8 +23,8 @@ from hexdbb.evidence.signatures import varying
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.trial import Member
 from hexdbb.learned import Learned, has_chosen_number, number_of
-from hexdbb.learned.numbered import NUMBERED
 from hexdbb.learned.places import EACH
+from hexdbb.learned.variable import NUMBERED
 
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search

@@ -21,8 +21,9 @@ from hexdbb.evidence.proposed import Proposal
 from hexdbb.evidence.readings import Linear, Readings
 from hexdbb.evidence.thinned import Thinned
 from hexdbb.learned import ALL, Learned, is_directed, two_states
+from hexdbb.learned.directed import HALF_TURN_DEG
 from hexdbb.learned.further import DIRECTIONS_DEG, RELAYS
-from hexdbb.learned.numbered import HALF_TURN_DEG, number_of
+from hexdbb.learned.numbered import number_of
 from hexdbb.learned.places import elements_by_name
 from hexdbb.samples.two_states import two_states as states_of
 

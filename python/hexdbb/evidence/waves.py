@@ -18,7 +18,7 @@ from hexdbb.evidence.periods import periods
 from hexdbb.evidence.proposed import Proposal
 from hexdbb.evidence.readings import Linear, Readings
 from hexdbb.learned import Learned
-from hexdbb.learned.numbered import WAVES, wave
+from hexdbb.learned.repeating import WAVES, wave
 from hexdbb.learned.variables import POSITION, VELOCITY
 
 Floats = NDArray[np.float64]

@@ -4,6 +4,8 @@ Everything here is data and arithmetic on it: a hypothesis is chosen by name fro
 its function is a penalised spline (`splines`), and `words` puts the fitted function into words.
 """
 
+from hexdbb.learned.directed import is_directed
+from hexdbb.learned.following import two_states
 from hexdbb.learned.hypothesis import FINER, Directed, Learned, part_of
 from hexdbb.learned.listed import (
     crossed_hypotheses,
@@ -13,18 +15,11 @@ from hexdbb.learned.listed import (
     products,
     settling,
 )
-from hexdbb.learned.numbered import (
-    has_chosen_number,
-    is_directed,
-    number_of,
-    periodic,
-    step,
-    turning,
-    turns_with,
-    two_states,
-)
+from hexdbb.learned.numbered import has_chosen_number, number_of, step
 from hexdbb.learned.places import ALL, PAIRS
 from hexdbb.learned.ranges import Columns, Ranges
+from hexdbb.learned.repeating import periodic
+from hexdbb.learned.signs import turning, turns_with
 from hexdbb.learned.space import Space, Weight
 from hexdbb.learned.tables import Curve, Table
 from hexdbb.learned.variable import Variable

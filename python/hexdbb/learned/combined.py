@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from hexdbb.learned import variables as v
-from hexdbb.learned.numbered import FAR, LAGGED, RELAXING, SLIPPING, following
+from hexdbb.learned.following import FAR, LAGGED, RELAXING, SLIPPING, following
 from hexdbb.learned.variable import ELAPSED, Variable, is_growing
 
 SPLINES = 6

@@ -13,8 +13,8 @@ from dataclasses import replace
 
 from hexdbb.learned import variables as v
 from hexdbb.learned.combined import FACTORS, each_way, neighbour, of_drives, product, slipping
+from hexdbb.learned.directed import POSITION_SPLINES, along
 from hexdbb.learned.further import BY_TRAVEL, DIRECTIONS_DEG, OF_BALL, OF_WHOLE
-from hexdbb.learned.numbered import POSITION_SPLINES, along
 from hexdbb.learned.places import ALL, PAIRS, SHARED, variables_of
 from hexdbb.learned.variable import Variable
 

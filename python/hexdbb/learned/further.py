@@ -10,7 +10,9 @@ from dataclasses import replace
 
 from hexdbb.learned import variables as v
 from hexdbb.learned.combined import CONSTANTS_S, SPLINES, each_way, neighbour, of_drives, product, remembered, slipping
-from hexdbb.learned.numbered import AFTER, LAGGED, SETTLING, SLIPPING, along, creep, following
+from hexdbb.learned.directed import along
+from hexdbb.learned.following import AFTER, LAGGED, SETTLING, SLIPPING, creep, following
+from hexdbb.learned.repeating import swinging
 from hexdbb.learned.variable import LINGERING, Variable
 
 GROWTHS_S = (200.0, 800.0)
@@ -58,15 +60,7 @@ SINCE_TURN_BY_DEFLECTION = replace(
 """A lever worn where it is mostly used, a plunger that sticks the more the deeper it goes: without the deflection a
 function of the angle turned, or a cup that moves along three axes, said more."""
 SCREW_WAVES = tuple(
-    replace(
-        each,
-        name=f"screw_wave_{each.name}",
-        words=f"{each.words}, times a wave of the screw's turn",
-        count=SPLINES,
-        times="screw_sin",
-        beside=("screw_cos",),
-        signed=False,
-    )
+    swinging(each, f"screw_wave_{each.name}", "of the screw's turn", ("screw_cos", "screw_sin"), SPLINES)
     for each in (v.POSITION, v.VELOCITY)
 )
 """A bent screw drags its carriage round or moves it along, most in mid-travel or at the speed at which it whips: cosine

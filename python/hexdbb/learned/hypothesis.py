@@ -13,7 +13,7 @@ from hexdbb.learned import variables as v
 from hexdbb.learned.beside import BESIDE, EVERYWHERE
 from hexdbb.learned.crossed import every_variable_of
 from hexdbb.learned.further import RELAYS
-from hexdbb.learned.numbered import by_direction, numbered, with_number
+from hexdbb.learned.numbered import numbered, with_number
 from hexdbb.learned.places import (
     ALL,
     AXES,
@@ -31,6 +31,7 @@ from hexdbb.learned.places import (
     members,
     variables_of,
 )
+from hexdbb.learned.repeating import by_direction
 from hexdbb.learned.variable import AXES_OF_VECTOR, Variable
 
 FINER = (2, 4, 8, 16)

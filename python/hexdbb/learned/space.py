@@ -12,8 +12,9 @@ from hexdbb import _core
 from hexdbb.errors import InputError
 from hexdbb.learned import splines
 from hexdbb.learned.hypothesis import Directed, Learned
-from hexdbb.learned.numbered import INSTANT_S, at_once, rate_of, transition_rate
+from hexdbb.learned.numbered import INSTANT_S
 from hexdbb.learned.ranges import NEVER, SHORTEST, Columns, Ranges, values_of
+from hexdbb.learned.signs import at_once, rate_of, transition_rate
 from hexdbb.learned.tables import Table
 from hexdbb.learned.variable import BENT, ELAPSED, SCREW_LEAD, SPLINES_MIN, is_growing, mount_of
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from hexdbb.learned.following import RELAY
 from hexdbb.learned.hypothesis import Push
-from hexdbb.learned.numbered import RELAY
 from hexdbb.learned.variable import OF_MEMORY
 
 Floats = NDArray[np.float64]

@@ -24,6 +24,8 @@ AXES_OF_VECTOR = 3
 """Numbers of a column that belongs to axes, not to sliders or legs."""
 EACH_SWEEP = "sweep"
 """Column that counts the sweeps."""
+NUMBERED = "@"
+"""In the name of a variable: what follows are the numbers."""
 OF_MEMORY = "."
 """In the name of a column of the samples that remembers: what follows the column's own name, and says how."""
 

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexdbb.learned.forms import Fit, Floats, fits
-from hexdbb.learned.numbered import period_of_wave, turns_gradually
+from hexdbb.learned.repeating import period_of_wave
+from hexdbb.learned.signs import turns_gradually
 from hexdbb.learned.tables import Curve
 from hexdbb.learned.variable import BENT, ELAPSED, OF_MEMORY
 

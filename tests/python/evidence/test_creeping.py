@@ -8,8 +8,8 @@ import pytest
 from hexdbb.evidence.readings import Readings
 from hexdbb.evidence.signatures import signature_of
 from hexdbb.learned import Learned
+from hexdbb.learned.following import creeps
 from hexdbb.learned.listed import further_hypotheses, hypotheses
-from hexdbb.learned.numbered import creeps
 from hexdbb.studies.verdicts.cases import line_of
 from hexdbb_truth.forms.cases import case
 

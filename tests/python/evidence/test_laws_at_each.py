@@ -18,7 +18,7 @@ from hexdbb.evidence.screen import Known
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.trial import Member, Trial
 from hexdbb.learned import Learned, number_of
-from hexdbb.learned.numbered import creeps
+from hexdbb.learned.following import creeps
 from hexdbb.learned.places import EACH
 from hexdbb.model import new_model
 from hexdbb.samples import Samples

@@ -11,8 +11,8 @@ from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.evidence.readings import Linear, Readings, State
 from hexdbb.evidence.two_states import relays
 from hexdbb.learned import ALL, Learned, is_directed
+from hexdbb.learned.following import is_relay
 from hexdbb.learned.further import RELAYS
-from hexdbb.learned.numbered import is_relay
 
 VECTORS = {"position_mm": 100.0, "gravity_in_platform": 0.3}
 """Columns of which a part along a direction may have two states, and how far they go."""

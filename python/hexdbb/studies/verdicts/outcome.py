@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from hexdbb.learned import Learned, Variable
-from hexdbb.learned.numbered import BY_NUMBER
+from hexdbb.learned.following import BY_NUMBER
 from hexdbb_truth.forms.labels import Label
 
 NAMED = ("right", "more")
