@@ -115,6 +115,8 @@ ALLOWED: dict[str, set[str]] = {
         TRUTH: "errors files machine plan record rig",
     }.items()
 }
+INSIDE_EVIDENCE = ("linear", "forms", "fit", "proposals", "search", "verdict")
+"""Packages of the evidence, each of which may import those before it; names that only types need may come from any."""
 COMMANDS = "cli"
 """The part that may import all others; none may import it."""
 
@@ -186,6 +188,25 @@ def test_python_imports_follow_the_table(path: Path) -> None:
     module = module_name(path)
     package = module if path.name == "__init__.py" else module.rpartition(".")[0]
     assert python_violations(module, path.read_text(encoding="utf-8"), package) == []
+
+
+@pytest.mark.parametrize("part", INSIDE_EVIDENCE)
+def test_the_evidence_is_built_one_way(part: str) -> None:
+    later = INSIDE_EVIDENCE[INSIDE_EVIDENCE.index(part) + 1 :]
+    imported = {
+        node.module
+        for path in (PACKAGE / "evidence" / part).glob("*.py")
+        for node in ast.parse(path.read_text(encoding="utf-8")).body
+        if isinstance(node, ast.ImportFrom) and node.module
+    }
+    assert any(module.startswith("hexdbb.") for module in imported)
+    assert not [module for module in imported if module.startswith(tuple(f"hexdbb.evidence.{one}." for one in later))]
+
+
+def test_every_module_of_the_evidence_has_its_package() -> None:
+    packages = {path.name for path in (PACKAGE / "evidence").iterdir() if (path / "__init__.py").exists()}
+    assert packages == {*INSIDE_EVIDENCE}
+    assert {path.name for path in (PACKAGE / "evidence").glob("*.py")} == {"__init__.py", "criteria.py"}
 
 
 def test_only_errors_and_units_lie_loose_in_the_package() -> None:

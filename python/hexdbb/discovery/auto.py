@@ -17,7 +17,7 @@ from hexdbb.diagnosis import Diagnosis, Noise, judging_noise
 from hexdbb.discovery.discover import Progress, discover
 from hexdbb.discovery.result import Discovery
 from hexdbb.discovery.words import joined
-from hexdbb.evidence.engine import Engine
+from hexdbb.evidence.linear.engine import Engine
 from hexdbb.ledger import add_effect, remove_effect
 from hexdbb.model import Choice, Model
 from hexdbb.samples import Samples

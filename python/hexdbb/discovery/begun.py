@@ -17,7 +17,7 @@ from hexdbb.diagnosis import (
     judging_noise,
 )
 from hexdbb.evidence.criteria import Criteria
-from hexdbb.evidence.engine import Engine
+from hexdbb.evidence.linear.engine import Engine
 from hexdbb.model import Model
 from hexdbb.samples import Samples
 

@@ -14,10 +14,10 @@ import numpy as np
 
 from hexdbb import _core
 from hexdbb.effects.words import effect_clause
-from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.search import Search
-from hexdbb.evidence.sums import Sums
-from hexdbb.evidence.trial import Trial
+from hexdbb.evidence.fit.trial import Trial
+from hexdbb.evidence.linear.engine import Engine
+from hexdbb.evidence.linear.sums import Sums
+from hexdbb.evidence.search.search import Search
 from hexdbb.model import Model, Size, default_effects
 from hexdbb.units import shown_factor, shown_unit
 

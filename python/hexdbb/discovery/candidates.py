@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from hexdbb.discovery.result import GROUPINGS, Candidate, GroupError, Grouping
-from hexdbb.evidence.heldout import HeldOut
-from hexdbb.evidence.node import Node
-from hexdbb.evidence.screen import Hypothesis
-from hexdbb.evidence.search import Search
+from hexdbb.evidence.fit.heldout import HeldOut
+from hexdbb.evidence.fit.node import Node
+from hexdbb.evidence.linear.screen import Hypothesis
+from hexdbb.evidence.search.search import Search
 from hexdbb.learned import Learned
 from hexdbb.learned.variable import NUMBERED
 from hexdbb.model import Choice

@@ -18,15 +18,15 @@ from hexdbb.discovery.result import Candidate, Cause, NextTest, Verdict
 from hexdbb.discovery.sentences import likely_sentence, verdict_sentence
 from hexdbb.effects.words import effect_clause
 from hexdbb.errors import RunError
-from hexdbb.evidence.form import Form
-from hexdbb.evidence.function_at_each import function_at_each
-from hexdbb.evidence.node import Node
-from hexdbb.evidence.screen import Hypothesis, Known
-from hexdbb.evidence.search import Search
-from hexdbb.evidence.sure import graded
-from hexdbb.evidence.trial import Trial
-from hexdbb.evidence.verdict import Found
-from hexdbb.evidence.verdict import Verdict as Judged
+from hexdbb.evidence.fit.node import Node
+from hexdbb.evidence.fit.trial import Trial
+from hexdbb.evidence.forms.form import Form
+from hexdbb.evidence.forms.function_at_each import function_at_each
+from hexdbb.evidence.linear.screen import Hypothesis, Known
+from hexdbb.evidence.search.search import Search
+from hexdbb.evidence.search.sure import graded
+from hexdbb.evidence.verdict.verdict import Found
+from hexdbb.evidence.verdict.verdict import Verdict as Judged
 from hexdbb.learned import Learned
 from hexdbb.learned.places import EACH
 from hexdbb.learned.words import CERTAIN

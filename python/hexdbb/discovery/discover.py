@@ -23,8 +23,8 @@ from hexdbb.discovery.unexplained import unexplained_structure
 from hexdbb.discovery.words import NOTHING, joined
 from hexdbb.errors import InputError
 from hexdbb.evidence.criteria import DEFAULT, Criteria
-from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.sufficiency import repeats_but_for_forms
+from hexdbb.evidence.fit.sufficiency import repeats_but_for_forms
+from hexdbb.evidence.linear.engine import Engine
 from hexdbb.model import Model
 from hexdbb.samples import Samples, predict
 from hexdbb.samples.places import with_set_up_of

@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from hexdbb import _core
 from hexdbb.diagnosis import evaluate_fit
-from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.physical import is_one_sided
-from hexdbb.evidence.screen import Hypothesis, Known
-from hexdbb.evidence.search import Search
-from hexdbb.evidence.trial import Trial
+from hexdbb.evidence.fit.trial import Trial
+from hexdbb.evidence.linear.engine import Engine
+from hexdbb.evidence.linear.physical import is_one_sided
+from hexdbb.evidence.linear.screen import Hypothesis, Known
+from hexdbb.evidence.search.search import Search
 from hexdbb.model import Choice, Model, Parameter, Size
 from hexdbb.units import shown_factor, shown_unit
 

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import get_args
 
 from hexdbb.discovery.begun import Begun
-from hexdbb.evidence.quieter import judged
-from hexdbb.evidence.search import Search
-from hexdbb.evidence.sure import Grade
-from hexdbb.evidence.verdict import Verdict
+from hexdbb.evidence.search.search import Search
+from hexdbb.evidence.search.sure import Grade
+from hexdbb.evidence.verdict.quieter import judged
+from hexdbb.evidence.verdict.verdict import Verdict
 
 GRADES = get_args(Grade)
 """Verdicts, the surest first, as their type lists them."""

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from hexdbb.discovery.result import Cause, Verdict
 from hexdbb.discovery.words import joined, percent, unseen_words
-from hexdbb.evidence.heldout import HeldOut
+from hexdbb.evidence.fit.heldout import HeldOut
 from hexdbb.files.plain_text import capital
 from hexdbb.learned.places import is_learned
 

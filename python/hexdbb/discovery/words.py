@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from hexdbb.discovery.result import Grouping
-from hexdbb.evidence.heldout import HeldOut
+from hexdbb.evidence.fit.heldout import HeldOut
 from hexdbb.learned import Learned, describe
 from hexdbb.learned.following import creeps, is_relay
 from hexdbb.learned.numbered import number_of

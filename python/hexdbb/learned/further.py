@@ -23,7 +23,7 @@ HEATS_S = (60.0, 240.0)
 RUN_UPS_DEG = (15.0, 45.0, 135.0)
 """Run-ups to circles that are tried first; the readings then move them. What settles since the start of the motion is
 smaller at the first reading of a slow circle than at that of a fast one. They are a factor of three apart, of which a
-step changes nearly two (`evidence/number.py`): any run-up between 8 and 260 degrees is reached."""
+step changes nearly two (`evidence/search/number.py`): any run-up between 8 and 260 degrees is reached."""
 DIRECTIONS_DEG = tuple(15.0 * each for each in range(1, 13))
 """Directions in the base's x-y plane that are tried first; the fit then refines them. Of a motion in another direction
 the nearest of the twelve explains at least 98 % (the square of the cosine of 7.5 degrees). With four directions it was

@@ -10,10 +10,10 @@ from hexdbb.diagnosis import noise_of
 from hexdbb.discovery.causes import is_nothing
 from hexdbb.discovery.exact_fit import exactly
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.screen import Known
-from hexdbb.evidence.search import Search
-from hexdbb.evidence.trial import Member
+from hexdbb.evidence.fit.trial import Member
+from hexdbb.evidence.linear.engine import Engine
+from hexdbb.evidence.linear.screen import Known
+from hexdbb.evidence.search.search import Search
 from hexdbb.model import new_model
 from hexdbb.record import Record
 from hexdbb.samples import Samples

@@ -9,7 +9,7 @@ import pytest
 from hexdbb.discovery import Cause
 from hexdbb.discovery.sentences import likely_sentence, verdict_sentence
 from hexdbb.discovery.words import place_clause
-from hexdbb.evidence.heldout import HeldOut
+from hexdbb.evidence.fit.heldout import HeldOut
 from hexdbb.learned import ALL, Learned, periodic, step
 from hexdbb.learned import variables as v
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from hexdbb import _core
-from hexdbb.evidence.readings import Linear, Readings, State
+from hexdbb.evidence.linear.readings import Linear, Readings, State
 from hexdbb.learned.places import BY_LOAD
 from hexdbb.machine import shipped_machine
 from hexdbb.samples.prediction import PORT_COUNT

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from hexdbb.evidence.alike import _log_ratio, _prior
+from hexdbb.evidence.forms.alike import _log_ratio, _prior
 
 Floats = NDArray[np.float64]
 

@@ -11,12 +11,12 @@ from tests.truth.closing import PACE, machine_of
 
 from hexdbb.diagnosis import diagnose, judging_noise
 from hexdbb.discovery import AutoStep, discover_all
-from hexdbb.evidence.all_elements import _are_apart
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.form import _by_variable
-from hexdbb.evidence.search import Search
-from hexdbb.evidence.verdict import Verdict, judge
+from hexdbb.evidence.forms.form import _by_variable
+from hexdbb.evidence.linear.engine import Engine
+from hexdbb.evidence.search.all_elements import _are_apart
+from hexdbb.evidence.search.search import Search
+from hexdbb.evidence.verdict.verdict import Verdict, judge
 from hexdbb.learned import Learned
 from hexdbb.ledger import add_effect
 from hexdbb.model import Model, new_model

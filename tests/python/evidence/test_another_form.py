@@ -8,12 +8,12 @@ from tests.foreign_records import samples_of
 
 from hexdbb.diagnosis import judging_noise
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.form import Form
-from hexdbb.evidence.readings import Linear
-from hexdbb.evidence.screen import Known
-from hexdbb.evidence.search import Search
-from hexdbb.evidence.trial import Member
+from hexdbb.evidence.fit.trial import Member
+from hexdbb.evidence.forms.form import Form
+from hexdbb.evidence.linear.engine import Engine
+from hexdbb.evidence.linear.readings import Linear
+from hexdbb.evidence.linear.screen import Known
+from hexdbb.evidence.search.search import Search
 from hexdbb.model import new_model
 from hexdbb.samples import Samples
 from hexdbb.samples.places import with_set_up_of

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from hexdbb.diagnosis import noise_of
-from hexdbb.evidence.engine import Engine
+from hexdbb.evidence.linear.engine import Engine
 from hexdbb.model import new_model
 from hexdbb.samples import Samples
 from hexdbb_truth.cases import case

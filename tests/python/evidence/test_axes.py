@@ -9,8 +9,8 @@ import pytest
 
 from hexdbb import _core
 from hexdbb.diagnosis import fit_free, learned_effect, noise_of
-from hexdbb.evidence.engine import Engine, Fitted
-from hexdbb.evidence.readings import Linear
+from hexdbb.evidence.linear.engine import Engine, Fitted
+from hexdbb.evidence.linear.readings import Linear
 from hexdbb.model import Choice, Model, new_model
 from hexdbb.samples import Samples
 from hexdbb_truth.cases import case

@@ -8,10 +8,10 @@ from hexdbb import _core
 from hexdbb.diagnosis import judging_noise
 from hexdbb.errors import RunError
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.engine import Engine, Fitted
-from hexdbb.evidence.screen import Known
-from hexdbb.evidence.search import Search
-from hexdbb.evidence.trial import Member
+from hexdbb.evidence.fit.trial import Member
+from hexdbb.evidence.linear.engine import Engine, Fitted
+from hexdbb.evidence.linear.screen import Known
+from hexdbb.evidence.search.search import Search
 from hexdbb.model import Model, new_model
 from hexdbb.samples import Samples
 from hexdbb_truth.cases import case

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from hexdbb.evidence.learnable import by_circle
-from hexdbb.evidence.readings import Readings
+from hexdbb.evidence.linear.readings import Readings
+from hexdbb.evidence.proposals.learnable import by_circle
 from hexdbb.studies.verdicts.cases import line_of
 from hexdbb_truth.forms.cases import case
 

@@ -8,12 +8,17 @@ from typing import Any
 import pytest
 
 from hexdbb.errors import RunError
-from hexdbb.evidence.by_formulas import err_by_geometry, explain_by_own_formulas, explain_in_part, explain_nearly_all
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.heldout import HeldOut
-from hexdbb.evidence.node import Node
-from hexdbb.evidence.screen import Known
-from hexdbb.evidence.trial import Member
+from hexdbb.evidence.fit.heldout import HeldOut
+from hexdbb.evidence.fit.node import Node
+from hexdbb.evidence.fit.trial import Member
+from hexdbb.evidence.linear.screen import Known
+from hexdbb.evidence.search.by_formulas import (
+    err_by_geometry,
+    explain_by_own_formulas,
+    explain_in_part,
+    explain_nearly_all,
+)
 from hexdbb.learned import Learned
 
 JOINT, SCREW = Known("joint_offset", ("2",)), Known("lead_error", ("5",))

@@ -8,16 +8,16 @@ import pytest
 from tests.truth.learned_closing import case_of
 
 from hexdbb.diagnosis import diagnose, judging_noise
-from hexdbb.evidence.by_function import or_by_functions
-from hexdbb.evidence.by_period import with_periods
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.node import Node
-from hexdbb.evidence.refine import finely_tuned
-from hexdbb.evidence.screen import Known
-from hexdbb.evidence.search import Search
-from hexdbb.evidence.settling import predicts
-from hexdbb.evidence.trial import Member
+from hexdbb.evidence.fit.node import Node
+from hexdbb.evidence.fit.trial import Member
+from hexdbb.evidence.linear.engine import Engine
+from hexdbb.evidence.linear.screen import Known
+from hexdbb.evidence.search.refine import finely_tuned
+from hexdbb.evidence.search.search import Search
+from hexdbb.evidence.search.settling import predicts
+from hexdbb.evidence.verdict.by_function import or_by_functions
+from hexdbb.evidence.verdict.by_period import with_periods
 from hexdbb.learned import Learned
 from hexdbb.model import new_model
 from hexdbb.samples import Samples

@@ -7,12 +7,12 @@ from pathlib import Path
 import pytest
 
 from hexdbb.diagnosis import noise_of
-from hexdbb.evidence.by_growth import or_one_that_grows
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.screen import Known
-from hexdbb.evidence.search import Search
-from hexdbb.evidence.trial import Member
+from hexdbb.evidence.fit.trial import Member
+from hexdbb.evidence.linear.engine import Engine
+from hexdbb.evidence.linear.screen import Known
+from hexdbb.evidence.search.search import Search
+from hexdbb.evidence.verdict.by_growth import or_one_that_grows
 from hexdbb.learned import Learned, number_of
 from hexdbb.model import new_model
 from hexdbb.record import read_record

@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hexdbb.evidence.learnable import by_mount_of
-from hexdbb.evidence.readings import Readings, State
-from hexdbb.evidence.signatures import signature_of
+from hexdbb.evidence.linear.readings import Readings, State
+from hexdbb.evidence.linear.signatures import signature_of
+from hexdbb.evidence.proposals.learnable import by_mount_of
 from hexdbb.learned import Learned
 from hexdbb.studies.verdicts.cases import line_of
 from hexdbb_truth.forms.cases import case

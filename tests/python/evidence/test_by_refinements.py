@@ -5,12 +5,12 @@ from __future__ import annotations
 from tests.foreign_records import samples_of
 
 from hexdbb.diagnosis import noise_of
-from hexdbb.evidence.by_function import or_by_refinements
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.screen import Known
-from hexdbb.evidence.search import Search
-from hexdbb.evidence.trial import Member
+from hexdbb.evidence.fit.trial import Member
+from hexdbb.evidence.linear.engine import Engine
+from hexdbb.evidence.linear.screen import Known
+from hexdbb.evidence.search.search import Search
+from hexdbb.evidence.verdict.by_function import or_by_refinements
 from hexdbb.learned import Learned
 from hexdbb.model import new_model
 from hexdbb.samples.places import with_set_up_of

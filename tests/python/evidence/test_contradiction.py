@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from hexdbb.evidence.readings import Linear, Readings
-from hexdbb.evidence.sums import Sums
+from hexdbb.evidence.linear.readings import Linear, Readings
+from hexdbb.evidence.linear.sums import Sums
 
 VALUES = 6
 DRAWS = 40

@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hexdbb.evidence.covered import is_covered
-from hexdbb.evidence.readings import Readings, State
-from hexdbb.evidence.screen import Known
+from hexdbb.evidence.linear.covered import is_covered
+from hexdbb.evidence.linear.readings import Readings, State
+from hexdbb.evidence.linear.screen import Known
 from hexdbb.learned import Learned
 
 

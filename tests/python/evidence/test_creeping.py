@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from hexdbb.evidence.readings import Readings
-from hexdbb.evidence.signatures import signature_of
+from hexdbb.evidence.linear.readings import Readings
+from hexdbb.evidence.linear.signatures import signature_of
 from hexdbb.learned import Learned
 from hexdbb.learned.following import creeps
 from hexdbb.learned.listed import further_hypotheses, hypotheses

@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from hexdbb.evidence import last_resort
 from hexdbb.evidence.criteria import DEFAULT
+from hexdbb.evidence.search import last_resort
 from hexdbb.learned import Learned, crossed_hypotheses, further_hypotheses, hypotheses
 from hexdbb.studies.verdicts.cases import line_of
 from hexdbb_truth.forms.cases import case

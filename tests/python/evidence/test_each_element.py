@@ -8,9 +8,9 @@ import pytest
 
 from hexdbb.diagnosis import noise_of
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.each_element import or_at_each_element
-from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.search import Search
+from hexdbb.evidence.linear.engine import Engine
+from hexdbb.evidence.search.search import Search
+from hexdbb.evidence.verdict.each_element import or_at_each_element
 from hexdbb.learned import Learned
 from hexdbb.model import new_model
 from hexdbb.record import read_record

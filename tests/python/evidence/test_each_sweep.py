@@ -9,11 +9,11 @@ import numpy as np
 
 from hexdbb.discovery.words import place_clause
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.readings import Linear, Readings
-from hexdbb.evidence.screen import MOST_ANEW_MM, Screen
-from hexdbb.evidence.signatures import signature_of
-from hexdbb.evidence.sums import Sums
-from hexdbb.evidence.thinned import Thinned
+from hexdbb.evidence.linear.readings import Linear, Readings
+from hexdbb.evidence.linear.screen import MOST_ANEW_MM, Screen
+from hexdbb.evidence.linear.signatures import signature_of
+from hexdbb.evidence.linear.sums import Sums
+from hexdbb.evidence.linear.thinned import Thinned
 from hexdbb.learned import Learned
 from hexdbb.learned.listed import crossed_hypotheses, further_hypotheses, hypotheses
 

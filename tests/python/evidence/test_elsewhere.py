@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.elsewhere import rivals_elsewhere
-from hexdbb.evidence.node import Node
-from hexdbb.evidence.screen import Known
-from hexdbb.evidence.trial import Member
+from hexdbb.evidence.fit.node import Node
+from hexdbb.evidence.fit.trial import Member
+from hexdbb.evidence.linear.screen import Known
+from hexdbb.evidence.verdict.elsewhere import rivals_elsewhere
 from hexdbb.learned import Learned
 from hexdbb.studies.verdicts.cases import line_of
 from hexdbb_truth.forms.cases import case

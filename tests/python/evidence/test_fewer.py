@@ -9,10 +9,10 @@ import pytest
 
 from hexdbb.diagnosis import noise_of
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.screen import Known
-from hexdbb.evidence.search import Search
-from hexdbb.evidence.trial import Member
+from hexdbb.evidence.fit.trial import Member
+from hexdbb.evidence.linear.engine import Engine
+from hexdbb.evidence.linear.screen import Known
+from hexdbb.evidence.search.search import Search
 from hexdbb.model import new_model
 from hexdbb.samples import Samples
 from hexdbb_truth.cases import case

@@ -8,10 +8,10 @@ import pytest
 
 from hexdbb.diagnosis import judging_noise
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.screen import Known
-from hexdbb.evidence.search import Search
-from hexdbb.evidence.trial import Member, Trial
+from hexdbb.evidence.fit.trial import Member, Trial
+from hexdbb.evidence.linear.engine import Engine
+from hexdbb.evidence.linear.screen import Known
+from hexdbb.evidence.search.search import Search
 from hexdbb.learned import Learned
 from hexdbb.model import new_model
 from hexdbb.samples import Samples

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.form_functions import FormFunctions
-from hexdbb.evidence.readings import Readings
+from hexdbb.evidence.forms.form_functions import FormFunctions
+from hexdbb.evidence.linear.readings import Readings
 from hexdbb.learned import Learned
 
 

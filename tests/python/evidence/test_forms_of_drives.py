@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from hexdbb.diagnosis import judging_noise
-from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.homes import Homes
-from hexdbb.evidence.learnable import Learnable
-from hexdbb.evidence.thinned import Thinned
+from hexdbb.evidence.forms.homes import Homes
+from hexdbb.evidence.linear.engine import Engine
+from hexdbb.evidence.linear.thinned import Thinned
+from hexdbb.evidence.proposals.learnable import Learnable
 from hexdbb.kinematics.screw import turns
 from hexdbb.learned import Learned
 from hexdbb.model import new_model

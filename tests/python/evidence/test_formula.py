@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from hexdbb.evidence.form import Form
-from hexdbb.evidence.formula import left_by_formulas
-from hexdbb.evidence.readings import Linear
+from hexdbb.evidence.fit.formula import left_by_formulas
+from hexdbb.evidence.forms.form import Form
+from hexdbb.evidence.linear.readings import Linear
 
 FORMULA, FORM, NOISE = 30.0, 40.0, 1.0
 

@@ -7,12 +7,12 @@ from typing import Any
 
 import pytest
 
-from hexdbb.evidence import further_elements
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.further_elements import with_elements_that_predict
-from hexdbb.evidence.node import Node
-from hexdbb.evidence.screen import Known
-from hexdbb.evidence.trial import Member
+from hexdbb.evidence.fit.node import Node
+from hexdbb.evidence.fit.trial import Member
+from hexdbb.evidence.linear.screen import Known
+from hexdbb.evidence.verdict import further_elements
+from hexdbb.evidence.verdict.further_elements import with_elements_that_predict
 from hexdbb.learned import Learned
 
 SPIKE, BOW = Known("reversal_spike", ("3",)), Known("straightness", ("3",))

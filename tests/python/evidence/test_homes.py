@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hexdbb.evidence.homes import Home, Homes, discrepancy
-from hexdbb.evidence.readings import Linear, Readings
-from hexdbb.evidence.thinned import Thinned
+from hexdbb.evidence.forms.homes import Home, Homes, discrepancy
+from hexdbb.evidence.linear.readings import Linear, Readings
+from hexdbb.evidence.linear.thinned import Thinned
 from hexdbb.learned import Learned
 from hexdbb.learned import variables as v
 

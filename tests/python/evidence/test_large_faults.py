@@ -8,7 +8,7 @@ import pytest
 from hexdbb.diagnosis import judging_noise
 from hexdbb.discovery import discover
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.engine import Engine
+from hexdbb.evidence.linear.engine import Engine
 from hexdbb.ledger import add_effect
 from hexdbb.model import Model, new_model
 from hexdbb.samples import Samples

@@ -10,13 +10,13 @@ from tests.foreign_records import samples_of
 
 from hexdbb.diagnosis import noise_of
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.fits import fitted
-from hexdbb.evidence.formula import left_by_formulas
-from hexdbb.evidence.function_at_each import function_at_each
-from hexdbb.evidence.screen import Known
-from hexdbb.evidence.search import Search
-from hexdbb.evidence.trial import Member, Trial
+from hexdbb.evidence.fit.fits import fitted
+from hexdbb.evidence.fit.formula import left_by_formulas
+from hexdbb.evidence.fit.trial import Member, Trial
+from hexdbb.evidence.forms.function_at_each import function_at_each
+from hexdbb.evidence.linear.engine import Engine
+from hexdbb.evidence.linear.screen import Known
+from hexdbb.evidence.search.search import Search
 from hexdbb.learned import Learned, number_of
 from hexdbb.learned.following import creeps
 from hexdbb.learned.places import EACH

@@ -8,9 +8,9 @@ from typing import Any
 import pytest
 
 from hexdbb.discovery import causes
-from hexdbb.evidence import verdict
-from hexdbb.evidence.screen import Known
-from hexdbb.evidence.verdict import Found
+from hexdbb.evidence.linear.screen import Known
+from hexdbb.evidence.verdict import verdict
+from hexdbb.evidence.verdict.verdict import Found
 from hexdbb.learned import Learned
 
 PLAY = Known("backlash", ("3",))

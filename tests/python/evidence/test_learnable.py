@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from hexdbb.diagnosis import judging_noise
-from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.learnable import Learnable
-from hexdbb.evidence.readings import State
+from hexdbb.evidence.linear.engine import Engine
+from hexdbb.evidence.linear.readings import State
+from hexdbb.evidence.proposals.learnable import Learnable
 from hexdbb.model import new_model
 from hexdbb.samples import Samples
 from hexdbb_truth.forms.cases import case

@@ -7,12 +7,12 @@ import pytest
 
 from hexdbb.diagnosis import judging_noise
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.marginal import marginal
-from hexdbb.evidence.screen import Known
-from hexdbb.evidence.search import Search
-from hexdbb.evidence.sums import Sums
-from hexdbb.evidence.trial import Member, Trial
+from hexdbb.evidence.fit.trial import Member, Trial
+from hexdbb.evidence.linear.engine import Engine
+from hexdbb.evidence.linear.marginal import marginal
+from hexdbb.evidence.linear.screen import Known
+from hexdbb.evidence.linear.sums import Sums
+from hexdbb.evidence.search.search import Search
 from hexdbb.model import new_model
 from hexdbb.samples import Samples
 from hexdbb_truth.forms.cases import case

@@ -9,9 +9,9 @@ import pytest
 from scipy import stats
 from scipy.special import logsumexp
 
-from hexdbb.evidence.marginal import marginal, solved
-from hexdbb.evidence.readings import Linear, Readings
-from hexdbb.evidence.sums import Sums
+from hexdbb.evidence.linear.marginal import marginal, solved
+from hexdbb.evidence.linear.readings import Linear, Readings
+from hexdbb.evidence.linear.sums import Sums
 
 Port = Callable[[str], np.ndarray]
 

@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from hexdbb.evidence.place import may_say
-from hexdbb.evidence.screen import Known
+from hexdbb.evidence.linear.screen import Known
+from hexdbb.evidence.search.place import may_say
 from hexdbb.learned import Learned
 
 KIN = {

@@ -9,16 +9,17 @@ from typing import Any
 import numpy as np
 import pytest
 
-from hexdbb.evidence import exchange, known_together
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.exchange import settled
-from hexdbb.evidence.form import Form
-from hexdbb.evidence.needed import by_formulas_instead, is_better, needs, needs_all, rests_on_form
-from hexdbb.evidence.node import Node
-from hexdbb.evidence.readings import Linear
-from hexdbb.evidence.screen import Known
-from hexdbb.evidence.trial import Member
-from hexdbb.evidence.trials import Trials
+from hexdbb.evidence.fit.node import Node
+from hexdbb.evidence.fit.trial import Member
+from hexdbb.evidence.fit.trials import Trials
+from hexdbb.evidence.forms.form import Form
+from hexdbb.evidence.linear.readings import Linear
+from hexdbb.evidence.linear.screen import Known
+from hexdbb.evidence.search import known_together
+from hexdbb.evidence.search.needed import by_formulas_instead, is_better, needs, needs_all, rests_on_form
+from hexdbb.evidence.verdict import exchange
+from hexdbb.evidence.verdict.exchange import settled
 from hexdbb.learned import Learned
 
 DRIFT, GAIN = (Member(Known(name, ("1",), is_whole=True)) for name in ("bar_drift", "bar_gain"))

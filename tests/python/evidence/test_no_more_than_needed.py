@@ -9,12 +9,13 @@ import pytest
 from tests.foreign_records import samples_of
 
 from hexdbb.diagnosis import noise_of
-from hexdbb.evidence import expansion, known_together, last_resort, two_elements
-from hexdbb.evidence import search as search_module
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.node import Node
-from hexdbb.evidence.search import Search
+from hexdbb.evidence.fit.node import Node
+from hexdbb.evidence.linear.engine import Engine
+from hexdbb.evidence.search import expansion, known_together, last_resort
+from hexdbb.evidence.search import search as search_module
+from hexdbb.evidence.search.search import Search
+from hexdbb.evidence.verdict import two_elements
 from hexdbb.learned import Learned
 from hexdbb.model import new_model
 from hexdbb.samples.places import with_set_up_of

@@ -7,9 +7,9 @@ from typing import Any, cast
 
 import pytest
 
-from hexdbb.evidence.node import Node
-from hexdbb.evidence.screen import Known
-from hexdbb.evidence.trial import Member, Trial
+from hexdbb.evidence.fit.node import Node
+from hexdbb.evidence.fit.trial import Member, Trial
+from hexdbb.evidence.linear.screen import Known
 from hexdbb.learned import Learned
 
 

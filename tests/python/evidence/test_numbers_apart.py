@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
-from hexdbb.evidence import number
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.trial import Member
+from hexdbb.evidence.fit.trial import Member
+from hexdbb.evidence.search import number
 from hexdbb.learned import Learned
 
 

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.one_cause import is_refined, without_borrowed_forms
-from hexdbb.evidence.screen import Known
+from hexdbb.evidence.linear.screen import Known
+from hexdbb.evidence.verdict.one_cause import is_refined, without_borrowed_forms
 from hexdbb.learned import Learned
 
 PLAY = Known("backlash", ("2",))

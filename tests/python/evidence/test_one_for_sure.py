@@ -7,12 +7,12 @@ from typing import Any
 
 import pytest
 
-from hexdbb.evidence import fine_enough
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.fine_enough import or_one_place
-from hexdbb.evidence.node import Node
-from hexdbb.evidence.screen import Hypothesis, Known
-from hexdbb.evidence.trial import Member
+from hexdbb.evidence.fit.node import Node
+from hexdbb.evidence.fit.trial import Member
+from hexdbb.evidence.linear.screen import Hypothesis, Known
+from hexdbb.evidence.search import fine_enough
+from hexdbb.evidence.search.fine_enough import or_one_place
 from hexdbb.learned import Learned
 
 BALL, OTHERWISE = Known("ball_eccentricity", ("1",)), Known("ball_eccentricity", ("2",))

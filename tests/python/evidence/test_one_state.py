@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.node import Node
-from hexdbb.evidence.one_state import of_one_state
-from hexdbb.evidence.screen import Known
-from hexdbb.evidence.trial import Member
+from hexdbb.evidence.fit.node import Node
+from hexdbb.evidence.fit.trial import Member
+from hexdbb.evidence.linear.screen import Known
+from hexdbb.evidence.verdict.one_state import of_one_state
 from hexdbb.learned import Learned
 
 WARMS, SAGS = Known("screw_thermal", ("2",)), Known("gravity_sag", ("machine",), is_whole=True)

@@ -9,13 +9,13 @@ import pytest
 from tests.foreign_records import samples_of
 
 from hexdbb.diagnosis import noise_of
-from hexdbb.evidence import refine
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.node import Node
-from hexdbb.evidence.screen import Known
-from hexdbb.evidence.search import Search
-from hexdbb.evidence.trial import Member
+from hexdbb.evidence.fit.node import Node
+from hexdbb.evidence.fit.trial import Member
+from hexdbb.evidence.linear.engine import Engine
+from hexdbb.evidence.linear.screen import Known
+from hexdbb.evidence.search import refine
+from hexdbb.evidence.search.search import Search
 from hexdbb.learned import Learned
 from hexdbb.model import new_model
 from hexdbb.samples.places import with_set_up_of

@@ -9,10 +9,10 @@ import pytest
 from hexdbb import _core
 from hexdbb.diagnosis import judging_noise
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.own_form import with_known_of_form
-from hexdbb.evidence.search import Search
-from hexdbb.evidence.verdict import Verdict, judge
+from hexdbb.evidence.linear.engine import Engine
+from hexdbb.evidence.search.search import Search
+from hexdbb.evidence.verdict.own_form import with_known_of_form
+from hexdbb.evidence.verdict.verdict import Verdict, judge
 from hexdbb.model import new_model
 from hexdbb.samples import Samples
 from hexdbb_truth.forms.cases import case

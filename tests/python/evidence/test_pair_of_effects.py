@@ -9,10 +9,10 @@ from typing import Any
 import pytest
 
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.known_words import in_known_words
-from hexdbb.evidence.node import Node
-from hexdbb.evidence.screen import Known
-from hexdbb.evidence.trial import Member
+from hexdbb.evidence.fit.node import Node
+from hexdbb.evidence.fit.trial import Member
+from hexdbb.evidence.linear.screen import Known
+from hexdbb.evidence.verdict.known_words import in_known_words
 from hexdbb.learned import Learned
 
 SHARED = Member(Learned.parse("learned:slider:1-2:position"))

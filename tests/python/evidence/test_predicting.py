@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from hexdbb.evidence import predicting
 from hexdbb.evidence.criteria import DEFAULT
+from hexdbb.evidence.verdict import predicting
 
 ONE = {"circle": 0.12, "feed": 0.2, "direction": 0.3}
 SEVERAL = {"circle": 0.24, "feed": 0.32, "direction": 0.72, "arc": 0.04}

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.periods import vibrations
-from hexdbb.evidence.proposals import proposals
-from hexdbb.evidence.readings import Linear, Readings, State
-from hexdbb.evidence.thinned import Thinned
+from hexdbb.evidence.linear.readings import Linear, Readings, State
+from hexdbb.evidence.linear.thinned import Thinned
+from hexdbb.evidence.proposals.periods import vibrations
+from hexdbb.evidence.proposals.proposals import proposals
 from hexdbb.learned import Learned
 
 Port = Callable[[str], np.ndarray]

@@ -7,13 +7,13 @@ from typing import Any
 
 import pytest
 
-from hexdbb.evidence.admissible import Checked
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.heldout import HeldOut
-from hexdbb.evidence.node import Node
-from hexdbb.evidence.rivals import Rivals, rivals_of
-from hexdbb.evidence.screen import Known
-from hexdbb.evidence.trial import Member
+from hexdbb.evidence.fit.admissible import Checked
+from hexdbb.evidence.fit.heldout import HeldOut
+from hexdbb.evidence.fit.node import Node
+from hexdbb.evidence.fit.trial import Member
+from hexdbb.evidence.linear.screen import Known
+from hexdbb.evidence.verdict.rivals import Rivals, rivals_of
 from hexdbb.learned import Learned
 
 CAUSE = Known("ball_eccentricity", ("2",))
@@ -164,7 +164,7 @@ def test_what_fits_better_and_errs_less_is_a_rival_though_not_for_sure_itself(
 def test_what_gives_way_to_fewer_effects_by_their_formulas_is_no_rival_of_them(
     gives_way: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("hexdbb.evidence.rivals.stand_before", lambda search, fewer, more: gives_way)
+    monkeypatch.setattr("hexdbb.evidence.verdict.rivals.stand_before", lambda search, fewer, more: gives_way)
     found = rivals(Checked({}, 1.0, ()), Checked({}, 1.0, ()), node_of(50.0, DRIFT, GAIN))
     assert found == (() if gives_way else ("bar_drift + bar_gain",))
 

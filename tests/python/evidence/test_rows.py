@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from hexdbb.evidence.rows import blocks_of, means_of, middles_of
+from hexdbb.evidence.linear.rows import blocks_of, means_of, middles_of
 
 ROWS, LEAD_MM = 4000, 10.0
 

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.screen import Known
-from hexdbb.evidence.settling import missed, settles
+from hexdbb.evidence.linear.screen import Known
+from hexdbb.evidence.search.settling import missed, settles
 from hexdbb.learned import Learned
 
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexdbb.evidence.marginal import Marginal
-from hexdbb.evidence.screen import Scored
-from hexdbb.evidence.shortlist import shortlist
+from hexdbb.evidence.linear.marginal import Marginal
+from hexdbb.evidence.linear.screen import Scored
+from hexdbb.evidence.search.shortlist import shortlist
 from hexdbb.learned import Learned
 
 NONE = np.zeros(0)

@@ -7,10 +7,10 @@ from typing import Any
 
 import pytest
 
-from hexdbb.evidence import stand_ins
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.screen import Known
-from hexdbb.evidence.trial import Member
+from hexdbb.evidence.fit.trial import Member
+from hexdbb.evidence.linear.screen import Known
+from hexdbb.evidence.verdict import stand_ins
 from hexdbb.learned import Learned
 from hexdbb.studies.verdicts.cases import line_of
 from hexdbb_truth.forms.cases import case

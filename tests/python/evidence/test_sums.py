@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hexdbb.evidence.readings import Linear, Readings
-from hexdbb.evidence.sums import Sums, squared_error
+from hexdbb.evidence.linear.readings import Linear, Readings
+from hexdbb.evidence.linear.sums import Sums, squared_error
 
 Port = Callable[[str], np.ndarray]
 

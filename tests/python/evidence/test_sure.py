@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 
 from hexdbb.errors import RunError
-from hexdbb.evidence import sure
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.form import Form
-from hexdbb.evidence.heldout import HeldOut
-from hexdbb.evidence.node import Node
-from hexdbb.evidence.screen import Known
-from hexdbb.evidence.sure import Grade, graded, is_for_sure
-from hexdbb.evidence.trial import Member
+from hexdbb.evidence.fit.heldout import HeldOut
+from hexdbb.evidence.fit.node import Node
+from hexdbb.evidence.fit.trial import Member
+from hexdbb.evidence.forms.form import Form
+from hexdbb.evidence.linear.screen import Known
+from hexdbb.evidence.search import sure
+from hexdbb.evidence.search.sure import Grade, graded, is_for_sure
 from hexdbb.learned import Learned
 
 LEGS = Member(Known("leg_thermal", ("all",), is_whole=True))

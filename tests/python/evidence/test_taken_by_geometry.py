@@ -7,11 +7,11 @@ import pytest
 
 from hexdbb.diagnosis import judging_noise
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.screen import Known
-from hexdbb.evidence.search import Search
-from hexdbb.evidence.trial import Member, Trial
-from hexdbb.evidence.verdict import judge
+from hexdbb.evidence.fit.trial import Member, Trial
+from hexdbb.evidence.linear.engine import Engine
+from hexdbb.evidence.linear.screen import Known
+from hexdbb.evidence.search.search import Search
+from hexdbb.evidence.verdict.verdict import judge
 from hexdbb.learned import Learned
 from hexdbb.ledger import add_effect
 from hexdbb.model import Model, new_model

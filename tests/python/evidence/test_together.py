@@ -10,11 +10,11 @@ from scipy.special import logsumexp
 from scipy.stats import multivariate_normal
 
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.readings import Linear, Readings
-from hexdbb.evidence.screen import Screen
-from hexdbb.evidence.sums import Sums
-from hexdbb.evidence.thinned import Thinned
-from hexdbb.evidence.together import KnownSets, Together
+from hexdbb.evidence.linear.readings import Linear, Readings
+from hexdbb.evidence.linear.screen import Screen
+from hexdbb.evidence.linear.sums import Sums
+from hexdbb.evidence.linear.thinned import Thinned
+from hexdbb.evidence.search.together import KnownSets, Together
 
 NAMES = ("first", "second", "third", "fourth", "fifth", "imitator")
 

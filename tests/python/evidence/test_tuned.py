@@ -10,12 +10,12 @@ import pytest
 
 from hexdbb.diagnosis import judging_noise
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.node import Node
-from hexdbb.evidence.screen import Screen
-from hexdbb.evidence.search import Search
-from hexdbb.evidence.sums import Sums
-from hexdbb.evidence.tuned import around, retunings, with_tuned_numbers
+from hexdbb.evidence.fit.node import Node
+from hexdbb.evidence.linear.engine import Engine
+from hexdbb.evidence.linear.screen import Screen
+from hexdbb.evidence.linear.sums import Sums
+from hexdbb.evidence.search.search import Search
+from hexdbb.evidence.search.tuned import around, retunings, with_tuned_numbers
 from hexdbb.learned import Learned, periodic
 from hexdbb.model import new_model
 from hexdbb.samples import Samples

@@ -8,9 +8,9 @@ import pytest
 
 from hexdbb.diagnosis import noise_of
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.search import Search
-from hexdbb.evidence.two_elements import best_pairs, or_at_two_elements
+from hexdbb.evidence.linear.engine import Engine
+from hexdbb.evidence.search.search import Search
+from hexdbb.evidence.verdict.two_elements import best_pairs, or_at_two_elements
 from hexdbb.model import new_model
 from hexdbb.record import read_record
 from hexdbb.samples import Samples

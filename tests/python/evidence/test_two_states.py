@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.readings import Linear, Readings, State
-from hexdbb.evidence.two_states import relays
+from hexdbb.evidence.linear.readings import Linear, Readings, State
+from hexdbb.evidence.proposals.two_states import relays
 from hexdbb.learned import ALL, Learned, is_directed
 from hexdbb.learned.following import is_relay
 from hexdbb.learned.further import RELAYS

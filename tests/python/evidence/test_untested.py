@@ -7,13 +7,13 @@ from typing import Any
 
 import pytest
 
-from hexdbb.evidence import sure
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.form import Form
-from hexdbb.evidence.heldout import HeldOut
-from hexdbb.evidence.node import Node
-from hexdbb.evidence.screen import Known
-from hexdbb.evidence.trial import Member
+from hexdbb.evidence.fit.heldout import HeldOut
+from hexdbb.evidence.fit.node import Node
+from hexdbb.evidence.fit.trial import Member
+from hexdbb.evidence.forms.form import Form
+from hexdbb.evidence.linear.screen import Known
+from hexdbb.evidence.search import sure
 from hexdbb.learned import Learned
 from hexdbb.studies.verdicts.cases import line_of
 from hexdbb_truth.forms.cases import case

@@ -6,9 +6,9 @@ import pytest
 
 from hexdbb.diagnosis import judging_noise
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.search import Search
-from hexdbb.evidence.verdict import judge
+from hexdbb.evidence.linear.engine import Engine
+from hexdbb.evidence.search.search import Search
+from hexdbb.evidence.verdict.verdict import judge
 from hexdbb.model import new_model
 from hexdbb.samples import Samples
 from hexdbb_truth.forms.cases import case

@@ -10,8 +10,8 @@ import pytest
 
 from hexdbb.discovery.words import place_clause
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.readings import Linear, Readings
-from hexdbb.evidence.waves import waves
+from hexdbb.evidence.linear.readings import Linear, Readings
+from hexdbb.evidence.proposals.waves import waves
 from hexdbb.learned import Learned, number_of
 from hexdbb.samples.memory import remembered_column
 

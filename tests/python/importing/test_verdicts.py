@@ -9,7 +9,7 @@ from tests.python.importing.conftest import imported
 from hexdbb.diagnosis import diagnose
 from hexdbb.discovery import Discovery, discover
 from hexdbb.errors import InputError
-from hexdbb.evidence.readings import State
+from hexdbb.evidence.linear.readings import State
 from hexdbb.learned import Learned
 from hexdbb.ledger import add_effect
 from hexdbb.model import Choice, Model, new_model

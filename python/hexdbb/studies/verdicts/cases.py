@@ -17,10 +17,10 @@ from hexdbb import _core
 from hexdbb.diagnosis import judging_noise
 from hexdbb.discovery import discover
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.quieter import judged
-from hexdbb.evidence.search import Search
-from hexdbb.evidence.verdict import Verdict
+from hexdbb.evidence.linear.engine import Engine
+from hexdbb.evidence.search.search import Search
+from hexdbb.evidence.verdict.quieter import judged
+from hexdbb.evidence.verdict.verdict import Verdict
 from hexdbb.ledger import add_effect
 from hexdbb.model import Model, new_model
 from hexdbb.plan import Plan
