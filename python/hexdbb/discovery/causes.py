@@ -78,7 +78,7 @@ def told(search: Search, judged: Judged, judge: Judge, matters_um: float, with_t
     if not judged.found or judged.checked is None:
         sentence = "something is missing that nothing tried explains"
         return Told("unknown", sentence, (), candidates, search.engine.base, None)
-    shares = {each.hypothesis: _share(search, judged.node, each.hypothesis) for each in judged.found}
+    shares = {each.hypothesis: _share(search, judged.node, each) for each in judged.found}
     refining = tuple(each.hypothesis for each in judged.found if search.refined(each.hypothesis))
     found = [each for each in judged.found if each.hypothesis not in refining]
     found.sort(key=lambda each: -shares[each.hypothesis])
@@ -203,10 +203,14 @@ def _remarks(
     return tuple(said)
 
 
-def _share(search: Search, node: Node, hypothesis: Hypothesis) -> float:
-    """Return the part of the unexplained that is left where a hypothesis is taken out of a set."""
+def _share(search: Search, node: Node, found: Found) -> float:
+    """Return the part of the unexplained that is left where a cause is taken out of a set, and what refines it.
+
+    A gauge that bends, by the way it moves too, says all that the plain bend does: beside it that is nothing.
+    """
     excess = max(search.root.trial.left - 1.0, 1e-9)
-    others = tuple(each for each in node.members if each.hypothesis != hypothesis)
+    own = {found.hypothesis.name, *found.refinements}
+    others = tuple(each for each in node.members if each.hypothesis.name not in own)
     if not others:
         return (search.root.trial.left - node.trial.left) / excess
     try:

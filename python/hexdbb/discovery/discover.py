@@ -96,7 +96,7 @@ def discover(
         return _with_calibrated(_with_remarks(_nothing(fitting.engine, less), fitting), fitting, calibrated)
     progress("screening all hypotheses, fitting the best")
     look = Look.of(begun, names, matters_um, learns=not known_only)
-    is_off = fitting is not None and not look.is_sure and calibrated.is_off(look.search, look.verdict.node.trial)
+    is_off = fitting is not None and calibrated.is_off(look.search, look.verdict.node, is_sure=look.is_sure)
     if fitting is not None and is_off:
         progress(f"screening again, {joined(calibrated.names)} fitted")
         again = Look.of(fitting, names, matters_um, learns=not known_only)
