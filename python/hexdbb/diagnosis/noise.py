@@ -107,6 +107,12 @@ def residual_repeats_to(samples: Samples, residual_mm: Floats) -> float:
     return with_rounding(samples, _robust_sigma(_steady(repeated))) if repeated else float("inf")
 
 
+def repeats_but_for_shifts(samples: Samples) -> float:
+    """Return the noise (mm) of repeated laps less by how much each lies above the next; infinite without such laps."""
+    repeated = [each - each.mean() for each in lap_differences(samples) if len(each)]
+    return with_rounding(samples, _robust_sigma(_steady(repeated))) if repeated else float("inf")
+
+
 def stated_noise(samples: Samples) -> Noise | None:
     """Return the noise as the gauges' specifications state it, the noisiest; None where one of them states none."""
     stated = [samples.records[each].gauge.stated_noise_mm for each in np.unique(samples["record"])]

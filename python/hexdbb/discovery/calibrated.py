@@ -17,6 +17,7 @@ from hexdbb.effects.words import effect_clause
 from hexdbb.evidence.fit.node import Node
 from hexdbb.evidence.fit.trial import Trial
 from hexdbb.evidence.linear.engine import Engine
+from hexdbb.evidence.linear.screen import Known
 from hexdbb.evidence.linear.sums import Sums
 from hexdbb.evidence.search.search import Search
 from hexdbb.evidence.verdict.one_cause import left_without
@@ -26,6 +27,9 @@ from hexdbb.units import shown_factor, shown_unit
 NEARLY = 0.9
 """Part of the evidence of the least causes from which a value that is off may say all of them, and is fitted to see: to
 first order it came out at 0.94 to 0.98 of what it then had, of four bars 2 to 8 µm off."""
+
+MOST_TRIED = 6
+"""Sets of the same effects at fewer elements that are asked beside it: an effect at each of six elements alone."""
 
 
 @dataclass(frozen=True)
@@ -69,13 +73,9 @@ class Calibrated:
         """
         if not is_sure:
             return self._gain(search, node.trial) > search.criteria.detect_nats * max(node.trial.left, 1.0)
-        # The largest stay longest.
-        members = sorted(node.members, key=lambda each: -left_without(search, node, each.hypothesis))
-        for some in range(1, len(members)):
-            fewer = search.trials.of_fewer(members[:some], node.trial)
-            if self._gain(search, fewer) > NEARLY * (node.trial.log_evidence - fewer.log_evidence):
-                return True
-        return False
+        lacking = node.trial.log_evidence
+        fewer = _with_fewer(search, node)
+        return any(self._gain(search, each) > NEARLY * (lacking - each.log_evidence) for each in fewer)
 
     def _gain(self, search: Search, trial: Trial) -> float:
         """Return the evidence that fitting these values adds to a trial, to first order, with their priors."""
@@ -110,3 +110,18 @@ class Calibrated:
                     value = float(model.values[place]) * factor
                     sizes.append(Size(each.element, each.name, value, spread, shown_unit(each.unit)))
             yield f"{effect_clause(model.info(name), sizes)}: fitted here; hexdbb add {name} puts it into the model"
+
+
+def _with_fewer(search: Search, node: Node) -> Iterator[Trial]:
+    """Yield sets that lack some of a set's causes, the least first, and tried ones of its effects at fewer elements."""
+    members = sorted(node.members, key=lambda each: left_without(search, node, each.hypothesis))
+    for place in range(1, len(members)):
+        yield search.trials.of_fewer(members[place:], node.trial)
+    effects, fewer = _effects(node), (each for each in search.nodes if 0 < each.faults < node.faults)
+    tried = [each for each in fewer if each.is_known and _effects(each) <= effects]
+    tried.sort(key=lambda each: -each.trial.log_evidence)
+    yield from (each.trial for each in tried[:MOST_TRIED])
+
+
+def _effects(node: Node) -> set[str]:
+    return {each.effect for each in node.hypotheses if isinstance(each, Known)}

@@ -258,6 +258,8 @@ SINCE_TURN = Variable(
 )
 TURNED = Variable("turned", "turned_rad", "rad", "angle turned since the circle began, with its sign", 10)
 """A cable that is wound up pulls more with every turn, and the other way round in the other direction."""
+WOUND = Variable("wound", "wound_rad", "rad", "angle turned since the set-up was fixed, with its sign", 10)
+"""What is wound up from lap to lap, and unwound the other way round, where nobody lets it go in between."""
 CIRCLE_DIRECTION = Variable("circle_direction", "", "", "direction of the circle", times="direction")
 SPEED = Variable("speed", "speed_mm_s", "mm/s", "speed of the platform", 8)
 FEED = Variable("feed", "feed_mm_s", "mm/s", "feed")
@@ -315,7 +317,7 @@ OF_PLATFORM_JOINT = (
 )
 OF_READING = (
     *(ANGLE, ANGLE_DIRECTION, BAR_ANGLE, DEFLECTION, READ, TIME, FINE_TIME, TIME_IN_SWEEP, IN_CIRCLE, WARMING),
-    *(CIRCLE_DIRECTION, FEED, SPEED, ROLL, PITCH, YAW, SINCE_TURN, TURNED, BAR_ELEVATION, BAR_AZIMUTH),
+    *(CIRCLE_DIRECTION, FEED, SPEED, ROLL, PITCH, YAW, SINCE_TURN, TURNED, WOUND, BAR_ELEVATION, BAR_AZIMUTH),
     *(FINE_BAR_ANGLE, FINE_BAR_AZIMUTH),
 )
 OF_ONE = (FINE_POSITION, FINE_TIME)

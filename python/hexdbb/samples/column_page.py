@@ -32,6 +32,11 @@ OWN = {
         "time since the first sample of the circle; nan where there is one only, or one sweep of each",
     ),
     "time_since_fixing_s": ("sample", "s", "time since the first sample of the fixing; nan where there is one only"),
+    "wound_rad": (
+        "sample",
+        "rad",
+        "angle turned since the first sample of the fixing, with its sign; nan where each has one sweep",
+    ),
     "turned_rad": ("sample", "rad", "angle turned since the first sample of the sweep, with its sign"),
     "drive_load": ("leg", "1", "part of `leg_force` along the guideway"),
     "carriage_load": ("leg", "1", "part of `leg_force` across the guideway"),

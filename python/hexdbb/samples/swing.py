@@ -22,7 +22,7 @@ Pose = tuple[Floats, Floats]
 DERIVED = (
     *("swing_angle_rad", "swing_rate_rad_s", "leg_inclination_rad", "bar_angle_rad", "bar_azimuth_rad"),
     "bar_elevation_rad",
-    *("time_in_sweep_s", "time_in_circle_s", "time_since_fixing_s", "turned_rad"),
+    *("time_in_sweep_s", "time_in_circle_s", "time_since_fixing_s", "turned_rad", "wound_rad"),
 )
 DERIVED_FROM = ("sliders_mm", "velocity_mm_s", "set_up", "time_s", "sweep", "mount", "angle_rad")
 """Columns that these follow from."""
@@ -35,7 +35,7 @@ lengths over which the swing bends."""
 def derived_columns(
     machine: MachineFile, columns: Mapping[str, NDArray[Any]], set_ups: Sequence[_core.SetUp]
 ) -> dict[str, NDArray[Any]]:
-    """Return the columns `DERIVED`: (n, 6) thrice, (n,) seven times; rad, rad/s, rad, rad, rad, rad, s, s, s, rad.
+    """Return the columns `DERIVED`: (n, 6) thrice, (n,) eight times; rad, rad/s, rad, rad, rad, rad, s, s, s, rad, rad.
 
     Parameters
     ----------
@@ -64,6 +64,7 @@ def derived_columns(
         "time_in_circle_s": _in_circle_s(columns["time_s"], columns["set_up"], columns["sweep"]),
         "time_since_fixing_s": _since_fixing_s(columns["time_s"], columns["mount"]),
         "turned_rad": _turned_rad(columns["angle_rad"], columns["sweep"]),
+        "wound_rad": _wound_rad(columns["angle_rad"], columns["sweep"], columns["mount"]),
     }
 
 
@@ -114,6 +115,22 @@ def _turned_rad(angle_rad: Floats, sweep: NDArray[np.integer[Any]]) -> Floats:
     begins = np.flatnonzero(np.diff(sweep)) + 1
     ways = (np.unwrap(each) for each in np.split(angle_rad, begins))
     return np.concatenate([each - each[:1] for each in ways])
+
+
+def _wound_rad(angle_rad: Floats, sweep: NDArray[np.integer[Any]], mount: NDArray[np.integer[Any]]) -> Floats:
+    """Return the angle turned since the first sample of each fixing, with its sign, shape (n,).
+
+    Nan where each has one sweep: it would repeat `turned_rad` under another name. From sweep to sweep the platform goes
+    the shorter way round.
+    """
+    if len(np.unique(np.column_stack([mount, sweep]), axis=0)) == len(np.unique(mount)):
+        return np.full(len(angle_rad), np.nan)
+    found = np.empty(len(angle_rad))
+    for each in np.unique(mount):
+        rows = np.flatnonzero(mount == each)
+        way = np.unwrap(angle_rad[rows])
+        found[rows] = way - way[0]
+    return found
 
 
 def _begin_s(time_s: Floats, part: NDArray[np.integer[Any]]) -> Floats:
