@@ -85,11 +85,12 @@ def told(search: Search, judged: Judged, judge: Judge, matters_um: float, with_t
     found = [each for each in found if _own_size_um(search, judged.node, each, shares) >= matters_um] or found[:1]
     if refining and all(_size_um(search, shares[each.hypothesis]) < matters_um for each in found):
         return _told_forms(search, refining)
-    grade = graded(search, judged.node, found[0].grade)
     exact = exactly(search, judged.node.trial, [each.hypothesis for each in found])
-    if empty := [each for each in found[1:] if is_nothing(search, exact, each.hypothesis)]:
-        found = [each for each in found if each not in empty]
+    seen = [each for each in found if not is_nothing(search, judged.node, exact, each.hypothesis)] or found[:1]
+    if len(seen) < len(found):
+        found = seen
         exact = exactly(search, judged.node.trial, [each.hypothesis for each in found])
+    grade = graded(search, judged.node, found[0].grade)
     hypotheses = [each.hypothesis for each in found]
     names = [each.name for each in hypotheses if isinstance(each, Learned)]
     learned = with_learned(search.engine.samples, exact.model, names, search.engine.noise)
@@ -112,7 +113,7 @@ def told(search: Search, judged: Judged, judge: Judge, matters_um: float, with_t
     )
 
 
-def is_nothing(search: Search, exact: ExactFit, cause: Hypothesis) -> bool:
+def is_nothing(search: Search, node: Node, exact: ExactFit, cause: Hypothesis) -> bool:
     """Check for a known effect of which only the functions of its form explain anything: its values are zero.
 
     Beside a carriage that is pushed aside by the direction of travel "slider 2 has 0.0 ± 0.3 µm of play".
@@ -120,8 +121,18 @@ def is_nothing(search: Search, exact: ExactFit, cause: Hypothesis) -> bool:
     if not isinstance(cause, Known):
         return False
     shapes = {each.name for each in search.engine.base.info(cause.effect).parameters if each.is_shape}
-    sizes = [each for each in exact.values_of(cause) if each.name not in shapes]
+    sizes = [each for each in _values(node, exact, cause) if each.name not in shapes]
     return all(abs(each.value) <= CERTAIN * (each.sigma or 0.0) for each in sizes)
+
+
+def _values(node: Node, exact: ExactFit, known: Known) -> tuple[Size, ...]:
+    """Return the values of an effect as they are told.
+
+    Geometry takes what elements share, and one value for all, fitted to how they differ, is of either sign: such are
+    told as they were fitted with the law at each.
+    """
+    form = node.trial.forms[node.hypotheses.index(known)]
+    return exact.values_of(known, None if form is None or form.law is None else node.trial.model)
 
 
 def _told_nothing(search: Search, enough: Sufficiency) -> Told:
@@ -239,8 +250,7 @@ def _cause(search: Search, node: Node, found: Found, share: float, models: _Mode
     else:
         effect, elements = hypothesis.effect, hypothesis.elements
         form = node.trial.forms[node.hypotheses.index(hypothesis)]
-        # Geometry takes what elements share, and one value for all, fitted to how they differ, is of either sign.
-        values = models.exact.values_of(hypothesis, None if form is None or form.law is None else node.trial.model)
+        values = _values(node, models.exact, hypothesis)
         clause = effect_clause(models.exact.model.info(effect), values)
         refinements = (*_law_at_each(search, form), *refinements)
     return Cause(

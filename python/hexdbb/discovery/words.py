@@ -26,6 +26,8 @@ SMALLEST_DEVIATION = 0.01
 MOST_WAYS = 2
 """Functions of one push that are told one by one. Those over where a leg points, for its tilt and the square of that,
 say little each: they make up for one another."""
+MOST_CURVES = 3
+"""Curves that a sentence describes one by one, those of a ball or a cup; a load on the platform has ten."""
 
 
 def function_clause(term: Term) -> str:
@@ -52,6 +54,10 @@ def function_clause(term: Term) -> str:
         return f"{whole_place_words(space.hypothesis)}: follows the {variable.words}, otherwise at each of its tilts"
     if not clear:
         return f"{place_clause(space.hypothesis)}, by how much geometry tells as well"
+    if len(clear) > MOST_CURVES:
+        largest = max(clear, key=lambda k: float(np.ptp(curves[k].value_mm)))
+        said = sentence(space.hypothesis, curves[largest], space.period, largest)
+        return f"{said}, and {len(clear) - 1} smaller functions of it along other axes"
     return ", ".join(sentence(space.hypothesis, curves[k], space.period, k) for k in clear)
 
 

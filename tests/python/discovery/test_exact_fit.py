@@ -10,6 +10,7 @@ from hexdbb.diagnosis import noise_of
 from hexdbb.discovery.causes import is_nothing
 from hexdbb.discovery.exact_fit import exactly
 from hexdbb.evidence.criteria import DEFAULT
+from hexdbb.evidence.fit.node import Node
 from hexdbb.evidence.fit.trial import Member
 from hexdbb.evidence.linear.engine import Engine
 from hexdbb.evidence.linear.screen import Known
@@ -48,7 +49,8 @@ def test_a_play_of_nothing_is_no_cause_to_tell(measured: Callable[[str], Record]
     model = with_set_up_of(samples, new_model(samples.machine))
     search = Search(Engine(samples, model, noise_of(samples), DEFAULT), ["backlash", "reversal_spike"], DEFAULT)
     play, none, spike = Known("backlash", ("4",)), Known("backlash", ("2",)), Known("reversal_spike", ("2",))
-    exact = exactly(search, search.trials.of(tuple(map(Member, (play, none, spike)))), [play, none, spike])
-    assert not is_nothing(search, exact, play)
-    assert is_nothing(search, exact, none)
-    assert is_nothing(search, exact, spike)  # whatever its time, which is a shape
+    node = Node(search.trials.of(tuple(map(Member, (play, none, spike)))), 0.0)
+    exact = exactly(search, node.trial, [play, none, spike])
+    assert not is_nothing(search, node, exact, play)
+    assert is_nothing(search, node, exact, none)
+    assert is_nothing(search, node, exact, spike)  # whatever its time, which is a shape

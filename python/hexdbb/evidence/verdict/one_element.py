@@ -19,6 +19,9 @@ from hexdbb.learned.places import SHARED, members
 def or_one_element(search: Search, node: Node) -> Node:
     """Return the function of one element that explains far more than one effect of all does by its formula.
 
+    Where the form of that is quite another, what leaves less than half as much: a scale that creeps after its
+    neighbour was six drives that lag, each by as much as its form made of it.
+
     Or the same effect at one of its elements, where its formula explains nearly all there and misses less than half as
     much of what was left out. Of drives that all lag none explained more than three quarters alone.
 
@@ -33,7 +36,10 @@ def or_one_element(search: Search, node: Node) -> Node:
         return node
     if (alone := _alone(search, node, effect)) is not None:
         return alone
-    most = search.left_by_formulas(node.trial) - of_forms(search, node.trial)
+    by_formula, form = search.left_by_formulas(node.trial), node.trial.forms[0]
+    most = by_formula - of_forms(search, node.trial)
+    if form is not None and form.is_odd:  # no form of this effect excuses what it leaves
+        most = max(most, search.criteria.far_better * by_formula)
     ports = search.engine.absent.ports(effect.effect)
     found = [
         each
