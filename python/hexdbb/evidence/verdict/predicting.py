@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from hexdbb.evidence.fit.admissible import missed_of
 from hexdbb.evidence.fit.heldout import HeldOut
 from hexdbb.evidence.fit.node import Node
+from hexdbb.evidence.forms.form import Form
 from hexdbb.evidence.linear.readings import ARC
 from hexdbb.evidence.search.needed import has_form_alone
 from hexdbb.evidence.search.search import Search
@@ -125,13 +126,24 @@ def or_fewer_by_formulas(search: Search, node: Node) -> Node:
 
 
 def stand_before(search: Search, fewer: Node, more: Node) -> bool:
-    """Check for fewer known effects that explain nearly all, by their formulas as much as more, and predict better."""
+    """Check for fewer known effects that explain nearly all, by their formulas as much as more, and predict better.
+
+    Or predict, each of its own form, where one of more is of quite another: two spikes after reversals were play of
+    both sliders, of forms a third off, beside a drive that lags by nothing.
+    """
     if not (fewer.is_known and more.is_known and fewer.faults < more.faults):
         return False
     most = search.root.trial.left - search.criteria.form_explains * (search.root.trial.left - 1.0)
     if fewer.trial.left >= most or search.left_by_formulas(fewer.trial) > search.left_by_formulas(more.trial):
         return False
+    if any(map(_is_odd, more.trial.forms)) and not any(map(_is_odd, fewer.trial.forms)):
+        least = search.criteria.form_explains
+        return explained_by_formulas(search, fewer) >= least and not search.checked(fewer).reasons
     return predicts_better(search, fewer, more)
+
+
+def _is_odd(form: Form | None) -> bool:
+    return form is not None and form.is_odd
 
 
 def predicts_better(search: Search, one: Node, several: Node) -> bool:
