@@ -145,6 +145,21 @@ def test_laps_that_differ_by_what_neighbours_share_are_no_noise() -> None:
     assert judging.noise.sigma_mm * 1e3 < 2.5 < noise_of(samples).sigma_mm * 1e3
 
 
+def test_laps_that_lie_apart_evenly_are_no_noisy_gauge() -> None:
+    """The second lap 3 µm above the first, as a cable winds up: within each the gauge is as good as stated."""
+    record = clean(1)
+    noise_um = np.random.default_rng(8).normal(0.0, 0.5, len(record))
+    level = of_the_machine(record, noise_um + 3.0 * record.columns["lap"])
+    judging = judging_noise(Samples.of([level]))
+    assert not judging.is_steady and judging.remark is not None
+    assert "something changes from lap to lap" in judging.remark
+    assert (judging.noise.source, judging.noise.sigma_mm) == ("stated", record.gauge.stated_noise_mm)
+    # Where the gauge is noisier besides, laps tell by how much.
+    noisier = judging_noise(Samples.of([of_the_machine(record, 4.0 * noise_um + 0.2 * record.columns["lap"])]))
+    assert noisier.is_steady and noisier.remark is not None
+    assert "noisier than stated" in noisier.remark
+
+
 def test_noise_that_lasts_is_steady() -> None:
     """Nine tenths of it are kept from one reading to the next."""
     record, draw = clean(1), np.random.default_rng(6)

@@ -33,6 +33,14 @@ def test_a_clean_machine_is_clean_with_a_longer_bar() -> None:
     assert abs(found.base.values[place] - 9.2e-3) < 0.5e-3
 
 
+def test_it_is_asked_for_in_place_of_the_least_of_sure_causes() -> None:
+    """The bar is 6.5 µm longer than stated; for sure were a drive that lags, and a guideway bowed by 94 µm."""
+    found = found_in("lag-with-a-longer-bar")
+    assert [each.choice for each in found.causes] == ["servo_lag:3"]
+    assert found.calibrated == ("bar_length",)
+    assert found.remarks[0].startswith("the bar is 6.")
+
+
 def test_it_is_added_first_and_not_again() -> None:
     samples = samples_of(LONGER)
     step, last = discover_all(samples, new_model(samples.machine))

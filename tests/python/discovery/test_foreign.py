@@ -304,7 +304,15 @@ def test_play_and_spikes_of_two_sliders_are_told_apart_from_a_lag_of_all() -> No
         ("lead-bends", {"lead_error:5"}),
         # The bar is 10 um longer than stated: each slider followed the force of its leg.
         pytest.param("lead-beside-a-longer-bar", {"lead_error:4"}, marks=pytest.mark.long),
+        # A bar off as well, which geometry makes up for but for what a bow of a tenth of a millimetre says.
+        ("lag-with-a-longer-bar", {"servo_lag:3"}),
+        # The same, where the leads of all six screws say it.
+        pytest.param("lead-with-a-shorter-bar", {"lead_error:5"}, marks=pytest.mark.long),
         ("spike-and-bow", {"reversal_spike:5", "straightness:3"}),
+        # They were play of both, of forms a third off, beside a drive that lags by nothing.
+        pytest.param("two-spikes-that-stretch", {"reversal_spike:2", "reversal_spike:3"}, marks=pytest.mark.long),
+        # A lag that swings by three tenths along the slider: a function of velocity and position, all but in name.
+        pytest.param("lag-that-waves-beside-a-joint", {"servo_lag:5", "joint_offset:2"}, marks=pytest.mark.long),
         # A gauge read a quarter of a second late: 10 um of a slider, and more than that where its motion turns.
         ("delay-and-gain", {"bar_gain", "sample_delay"}),
         # In the words of learned functions it gave way to a guideway's side by position and direction.

@@ -140,6 +140,10 @@ moves the best direction by two degrees, a fifteenth of what lies between two th
         ("lags-above-a-speed", "learned:slider:2:velocity", {"circle", "feed", "direction", "lap"}),
         # Cogging that a drive holds down at speed, by exp(-v / 8 mm/s): a rail each way and a ball, after two minutes.
         ("cogging-damped-by-speed", "learned:slider:4:velocity_wave@", {"circle", "feed", "lap"}),
+        # Round a post from lap to lap, and back the other way: a noisy gauge, since laps lie apart evenly.
+        ("cable-winds-up", "learned:reading:wound", {"circle", "feed", "direction", "lap"}),
+        # By 0.13 s late: all six drives lagged, each by as much as the functions of its form made of it.
+        ("scale-creeps-after-its-neighbour", "learned:slider:6:neighbour_velocity", {"feed", "direction", "lap"}),
         # A gauge that reads short away from its middle, with a flaw at one place: a wrong gain for sure.
         ("gauge-saturates", "learned:reading:deflection", {"circle", "feed", "direction", "lap"}),
     ],
@@ -249,6 +253,8 @@ def test_one_leg_that_gives_is_no_sag_of_all() -> None:
         ("creep-after-each-fixing", {"pitch_cyclic:2", "learned:cup:time_in_circle"}),
         # A dent beside legs that sag: a bow, by the functions of its form, which left three times the noise.
         ("dent-beside-sag", {"gravity_sag", "learned:vertical:2:fine_position"}),
+        # A gauge that bends, by the way it moves besides, beside which the plain bend says nothing: it was not told.
+        ("play-beside-a-gauge-that-bends", {"backlash:3", "learned:reading:deflection"}),
         # A leg that its motor warms; the bar is 10 um shorter than stated, which was a screw and two more lags.
         ("lag-and-warm-leg-longer-bar", {"servo_lag:4", "learned:leg:2:velocity_lingering"}),
     ],

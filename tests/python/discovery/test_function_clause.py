@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -37,3 +38,10 @@ def test_three_functions_that_make_up_for_one_another_are_one_clause() -> None:
     """Of a forked joint each varied by more than a millimetre, for a leg that errs by tens of micrometres."""
     clause = function_clause(term(1.0, 0.1, "learned:leg:3:leg_in_platform"))
     assert clause == "length of leg 3: follows the direction of the leg in the platform, otherwise at each of its tilts"
+
+
+def test_of_many_curves_the_largest_is_told() -> None:
+    """A load on the platform has six functions for each state: pulls and couples."""
+    clause = function_clause(term(0.01, 0.0001, "learned:load:roll"))
+    assert clause.startswith("load on the platform, by elastic legs, a ")
+    assert re.search(r", and [2-5] smaller functions of it along other axes$", clause)
