@@ -246,7 +246,7 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
         *HEATED_THERE,
         *LEG_DIRECTIONS,
         JOINT_ANGLE_EACH_WAY,
-        v.TURNED,  # a leg turns in its thread as the platform circles
+        *(v.TURNED, v.WOUND),  # a leg turns in its thread as the platform circles
     ),
     "lateral": OF_RAIL,
     "vertical": OF_RAIL,
@@ -265,6 +265,7 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
         *CROSSTALK,
         *LINGERING_ANGLE,
         *LATE_WARMING,
+        v.WOUND,
     ),
 }
 """Further variables of single elements by place."""

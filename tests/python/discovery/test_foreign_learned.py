@@ -119,7 +119,7 @@ moves the best direction by two degrees, a fifteenth of what lies between two th
         # A nut whose heat lifts the carriage: a free function of time, of 320 splines, had more evidence than the law.
         ("nut-lifts", "learned:slider_joint:3:velocity_lingering@", {"circle", "feed", "direction", "lap"}),
         # A leg that turns in its thread as the platform circles: two functions of the reading said most of it.
-        ("leg-unscrews", "learned:leg:5:turned", {"circle", "feed"}),
+        ("leg-unscrews", "learned:leg:5:wound", {"circle", "feed"}),
         # A motor heats the leg's foot by its own motion: a function of time, which says nothing of another time.
         ("motor-heats-foot", "learned:leg:5:velocity_lingering@", {"circle", "feed", "direction", "lap"}),
         # A leg that is warmed where its slider stands near the guideway's end: a load of the drive, as it was before.
