@@ -223,16 +223,17 @@ def in_other_words(search: Search, known: list[Scored], learned: list[Scored], c
 def known_sets(search: Search, most: int) -> list[Together]:
     """Return the sets of two to so many known effects that are worth a full fit, small ones first; kept."""
     if most not in search.known_sets:
-        search.known_sets[most] = _known_sets(search, most)
+        search.known_sets[most] = known_sets_beside(search, search.root.trial, most)
     return search.known_sets[most]
 
 
-def _known_sets(search: Search, most: int) -> list[Together]:
-    model, engine, criteria = search.root.trial.model, search.engine, search.criteria
+def known_sets_beside(search: Search, base: Trial, most: int) -> list[Together]:
+    """Return the sets of two to so many known effects that are worth a full fit beside a set, small ones first."""
+    model, engine, criteria = base.model, search.engine, search.criteria
     tables = [engine.absent.signatures(model, search.known)]
     if shaped := [name for name in search.known if engine.absent.has_shape(name)]:
         tables += [engine.absent.signatures(model, shaped, each) for each in filter(None, criteria.shape_starts)]
-    sums = Sums(search.trials.linear(search.root.trial), engine.readings, ())
+    sums = Sums(search.trials.linear(base), engine.readings, ())
     screen = Screen(sums, criteria, search.thinned)
     kinds = {name for name in search.known if search.is_whole(name)}
     every = ((engine.base.info(name), each.name) for name in search.known for each in engine.base.info(name).parameters)

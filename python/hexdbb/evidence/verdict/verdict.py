@@ -42,6 +42,7 @@ from hexdbb.evidence.verdict.second_alone import or_the_second_alone
 from hexdbb.evidence.verdict.simpler import in_simple_words
 from hexdbb.evidence.verdict.stand_ins import without_stand_ins
 from hexdbb.evidence.verdict.two_elements import or_at_two_elements
+from hexdbb.evidence.verdict.two_others import or_two_others
 from hexdbb.learned import Learned
 
 
@@ -132,7 +133,7 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
         if not _is_form(search):
             return Verdict("unknown", (), node, None, before)
         return Verdict("none", (), node, None, before, refined_forms(search))
-    node = with_what_forms_hide(search, settled(search, node))
+    node = with_what_forms_hide(search, or_two_others(search, settled(search, node)))
     node = without_borrowed_forms(search, of_better_form(search, node))
     node = or_one_that_predicts(search, or_fewer_by_formulas(search, with_elements_that_predict(search, node)))
     node = with_turning(search, with_tuned_numbers(search, or_by_functions(search, node)))

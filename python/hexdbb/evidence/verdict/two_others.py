@@ -1,0 +1,61 @@
+"""Two of several known effects exchanged at once for two others: alone, neither of these says enough.
+
+Beside a spike after reversals two screws that warm were a gauge that drifts, and a screw between them, by their forms.
+Each cause taken out in turn leaves the other, which stands in for what either of the true ones would say.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import suppress
+from itertools import combinations
+
+from hexdbb.errors import RunError
+from hexdbb.evidence.fit.node import Node
+from hexdbb.evidence.fit.trial import Member
+from hexdbb.evidence.search.needed import is_better, needs_all
+from hexdbb.evidence.search.screened import known_sets_beside
+from hexdbb.evidence.search.search import Search
+from hexdbb.evidence.search.settling import predicts
+from hexdbb.evidence.search.sure import is_for_sure
+
+LEAST_MEMBERS = 3
+"""Causes from which two are exchanged beside a third: of two the pairs beside none were screened at first."""
+PAIRS_FITTED = 2
+"""Pairs fitted in full in place of each two: to first order the best is first or second."""
+
+
+def or_two_others(search: Search, node: Node) -> Node:
+    """Return the best set of known effects with two others in place of two of its own, where it is better.
+
+    Parameters
+    ----------
+    search : Search
+    node : Node
+        Returned unchanged if it has a function, fewer than three effects, or is for sure.
+    """
+    if not node.is_known or len(node.members) < LEAST_MEMBERS or is_for_sure(search, node):
+        return node
+    found = [each for each in _exchanged(search, node) if _stands(search, each, node)]
+    search.nodes += found
+    return max(found, key=lambda each: each.score, default=node)
+
+
+def _exchanged(search: Search, node: Node) -> Iterator[Node]:
+    for pair in combinations(node.members, 2):
+        rest = tuple(each for each in node.members if each not in pair)
+        base = search.node(rest, near=node)
+        for together in known_sets_beside(search, base.trial, 2)[:PAIRS_FITTED]:
+            others = [each.known for each in together.members if each.known not in node.hypotheses]
+            if len(others) == len(pair):
+                with suppress(RunError):
+                    yield search.node((*rest, *map(Member, others)), near=base)
+
+
+def _stands(search: Search, node: Node, before: Node) -> bool:
+    return (
+        not node.trial.refused
+        and is_better(search, node, before)
+        and predicts(search, node)
+        and needs_all(search, node)
+    )
