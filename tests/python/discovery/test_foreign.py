@@ -311,6 +311,12 @@ def test_play_and_spikes_of_two_sliders_are_told_apart_from_a_lag_of_all() -> No
         ("spike-and-bow", {"reversal_spike:5", "straightness:3"}),
         # They were play of both, of forms a third off, beside a drive that lags by nothing.
         pytest.param("two-spikes-that-stretch", {"reversal_spike:2", "reversal_spike:3"}, marks=pytest.mark.long),
+        # A gauge that drifts and the screw between them, by their forms, each of which the other made needed.
+        pytest.param(
+            "two-screws-beside-a-spike",
+            {"screw_thermal:3", "screw_thermal:5", "reversal_spike:2"},
+            marks=pytest.mark.long,
+        ),
         # A lag that swings by three tenths along the slider: a function of velocity and position, all but in name.
         pytest.param("lag-that-waves-beside-a-joint", {"servo_lag:5", "joint_offset:2"}, marks=pytest.mark.long),
         # A gauge read a quarter of a second late: 10 um of a slider, and more than that where its motion turns.
