@@ -9,7 +9,7 @@ from hexdbb.evidence.fit.admissible import Checked
 from hexdbb.evidence.fit.node import Node
 from hexdbb.evidence.fit.sufficiency import left_over
 from hexdbb.evidence.linear.screen import Hypothesis, Known
-from hexdbb.evidence.search.beside import with_known_left
+from hexdbb.evidence.search.beside import with_known_beside, with_known_left
 from hexdbb.evidence.search.fine_enough import or_another_beside, or_one_fine_enough, or_one_place
 from hexdbb.evidence.search.place import at_its_place, may_say
 from hexdbb.evidence.search.refine import refined, refined_forms
@@ -133,7 +133,9 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
         if not _is_form(search):
             return Verdict("unknown", (), node, None, before)
         return Verdict("none", (), node, None, before, refined_forms(search))
-    node = with_what_forms_hide(search, or_two_others(search, settled(search, node)))
+    # Known words may leave what was a function's shape: what lies beside them is asked for again.
+    node = with_known_beside(search, or_two_others(search, settled(search, node)))
+    node = with_what_forms_hide(search, node)
     node = without_borrowed_forms(search, of_better_form(search, node))
     node = or_one_that_predicts(search, or_fewer_by_formulas(search, with_elements_that_predict(search, node)))
     node = with_turning(search, with_tuned_numbers(search, or_by_functions(search, node)))
