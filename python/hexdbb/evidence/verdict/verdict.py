@@ -39,6 +39,7 @@ from hexdbb.evidence.verdict.predicting import (
 from hexdbb.evidence.verdict.rivals import rivals_of
 from hexdbb.evidence.verdict.same_state import or_at_another_place, or_at_the_rails
 from hexdbb.evidence.verdict.second_alone import or_the_second_alone
+from hexdbb.evidence.verdict.simple_beside import or_a_simple_one_beside
 from hexdbb.evidence.verdict.simpler import in_simple_words
 from hexdbb.evidence.verdict.stand_ins import without_stand_ins
 from hexdbb.evidence.verdict.two_elements import or_at_two_elements
@@ -143,7 +144,8 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     # What its slider's place says of a leg, the joint of the slider says as well: the rail is asked before and after.
     fine = or_at_the_rails(search, or_one_fine_enough(search, node))
     fine = or_at_the_rails(search, or_at_another_place(search, fine))
-    node = with_known_left(search, node if fine is node else in_known_words(search, fine))
+    node = or_a_simple_one_beside(search, node if fine is node else in_known_words(search, fine))
+    node = with_known_left(search, node)
     if (forms := as_forms(search, node)) is not None:
         return Verdict("none", (), search.root, None, before, forms)
     node = in_simple_words(search, with_periods(search, node))
