@@ -311,6 +311,12 @@ def test_play_and_spikes_of_two_sliders_are_told_apart_from_a_lag_of_all() -> No
         ("spike-and-bow", {"reversal_spike:5", "straightness:3"}),
         # They were play of both, of forms a third off, beside a drive that lags by nothing.
         pytest.param("two-spikes-that-stretch", {"reversal_spike:2", "reversal_spike:3"}, marks=pytest.mark.long),
+        # Four times as large, one of the three was a function at first, and nothing was asked for beside its name.
+        pytest.param(
+            "screw-warms-beside-pitch-errors",
+            {"pitch_cyclic:1", "pitch_cyclic:4", "pitch_cyclic:6", "screw_thermal:4"},
+            marks=pytest.mark.long,
+        ),
         # A gauge that drifts and the screw between them, by their forms, each of which the other made needed.
         pytest.param(
             "two-screws-beside-a-spike",

@@ -253,6 +253,8 @@ def test_one_leg_that_gives_is_no_sag_of_all() -> None:
         ("creep-after-each-fixing", {"pitch_cyclic:2", "learned:cup:time_in_circle"}),
         # A dent beside legs that sag: a bow, by the functions of its form, which left three times the noise.
         ("dent-beside-sag", {"gravity_sag", "learned:vertical:2:fine_position"}),
+        # A ball with five lobes, and play a quarter as large: lobes that differ by the way round said both.
+        ("lobes-beside-play-of-three", {"learned:reading:bar_angle", "backlash:3", "backlash:4", "backlash:6"}),
         # A gauge that bends, by the way it moves besides, beside which the plain bend says nothing: it was not told.
         ("play-beside-a-gauge-that-bends", {"backlash:3", "learned:reading:deflection"}),
         # A leg that its motor warms; the bar is 10 um shorter than stated, which was a screw and two more lags.
