@@ -41,7 +41,7 @@ def settled(search: Search, node: Node) -> Node:
         admissible = (
             each
             for each in tried
-            if is_better(search, each, node) and _is_admissible(search, each) and not _gives_up(search, node, each)
+            if is_better(search, each, node) and is_admissible(search, each) and not _gives_up(search, node, each)
         )
         chosen = next(admissible, _all_needed(search, node))
         if chosen is node:
@@ -90,7 +90,7 @@ def with_found_beside(search: Search, node: Node) -> Node:
     """Return the best set that was tried with all of a set and more, where it is better, needs all and predicts."""
     wider = (each for each in search.nodes if {*node.hypotheses} < {*each.hypotheses} and is_better(search, each, node))
     best_first = sorted(wider, key=lambda each: -each.score)
-    return next((each for each in best_first if _is_admissible(search, each)), node)
+    return next((each for each in best_first if is_admissible(search, each)), node)
 
 
 def _may_replace(search: Search, one: Node, other: Node) -> bool:
@@ -179,6 +179,6 @@ def _without_the_needless(search: Search, node: Node) -> Node:
     return node
 
 
-def _is_admissible(search: Search, node: Node) -> bool:
+def is_admissible(search: Search, node: Node) -> bool:
     """Check that a set predicts and that nothing could be left out of it."""
     return not node.trial.refused and needs_all(search, node) and not search.checked(node).reasons

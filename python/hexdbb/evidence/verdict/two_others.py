@@ -13,11 +13,11 @@ from itertools import combinations
 from hexdbb.errors import RunError
 from hexdbb.evidence.fit.node import Node
 from hexdbb.evidence.fit.trial import Member
-from hexdbb.evidence.search.needed import is_better, needs_all
+from hexdbb.evidence.search.needed import is_better
 from hexdbb.evidence.search.screened import known_sets_beside
 from hexdbb.evidence.search.search import Search
-from hexdbb.evidence.search.settling import predicts
 from hexdbb.evidence.search.sure import is_for_sure
+from hexdbb.evidence.verdict.exchange import is_admissible
 
 LEAST_MEMBERS = 3
 """Causes from which two are exchanged beside a third: of two the pairs beside none were screened at first."""
@@ -36,8 +36,8 @@ def or_two_others(search: Search, node: Node) -> Node:
     """
     if not node.is_known or len(node.members) < LEAST_MEMBERS or is_for_sure(search, node):
         return node
-    found = [each for each in _exchanged(search, node) if _stands(search, each, node)]
-    search.nodes += found
+    better = (each for each in _exchanged(search, node) if is_better(search, each, node))
+    found = [each for each in better if is_admissible(search, each)]
     return max(found, key=lambda each: each.score, default=node)
 
 
@@ -50,12 +50,3 @@ def _exchanged(search: Search, node: Node) -> Iterator[Node]:
             if len(others) == len(pair):
                 with suppress(RunError):
                     yield search.node((*rest, *map(Member, others)), near=base)
-
-
-def _stands(search: Search, node: Node, before: Node) -> bool:
-    return (
-        not node.trial.refused
-        and is_better(search, node, before)
-        and predicts(search, node)
-        and needs_all(search, node)
-    )
