@@ -176,8 +176,30 @@ def test_fewer_effects_whose_formulas_explain_as_much_are_the_answer(
     """A gauge that drifts and is read late, for a delay, a ball off its axis and six screws that warm."""
     fewer, several = node_of(2, left, errors), node_of(3, 1.8, SEVERAL)
     for each, faults in ((fewer, 2), (several, 8)):
-        each.is_known, each.faults = True, faults
+        each.is_known, each.faults, each.trial.forms = True, faults, (None,)
     by_formulas = {id(fewer.trial): formulas, id(several.trial): 5.1}
+    search: Any = SimpleNamespace(
+        criteria=DEFAULT,
+        root=SimpleNamespace(trial=SimpleNamespace(left=901.0)),
+        nodes=[several, fewer],
+        checked=lambda each: each.checked,
+        left_by_formulas=lambda trial: by_formulas[id(trial)],
+    )
+    assert predicting.or_fewer_by_formulas(search, several) is (fewer if is_answer else several)
+
+
+@pytest.mark.parametrize(
+    ("of_fewer", "of_several", "is_answer"), [(False, True, True), (True, True, False), (False, False, False)]
+)
+def test_fewer_of_their_own_forms_stand_before_more_of_which_one_is_of_another(
+    of_fewer: bool, of_several: bool, is_answer: bool
+) -> None:
+    """Two spikes for play of both sliders beside a lag, which errs a little less on one feed."""
+    fewer, several = node_of(2, 5.0, ONE | {"feed": 0.4}), node_of(3, 1.8, SEVERAL)
+    for each, faults, is_odd in ((fewer, 2, of_fewer), (several, 3, of_several)):
+        each.is_known, each.faults = True, faults
+        each.trial.forms = (None, SimpleNamespace(is_odd=is_odd))
+    by_formulas = {id(fewer.trial): 4.9, id(several.trial): 5.1}
     search: Any = SimpleNamespace(
         criteria=DEFAULT,
         root=SimpleNamespace(trial=SimpleNamespace(left=901.0)),
