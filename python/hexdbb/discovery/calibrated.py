@@ -8,12 +8,14 @@ that reads by the platform's yaw.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
 
 from hexdbb import _core
 from hexdbb.effects.words import effect_clause
+from hexdbb.errors import RunError
 from hexdbb.evidence.fit.node import Node
 from hexdbb.evidence.fit.trial import Trial
 from hexdbb.evidence.linear.engine import Engine
@@ -116,7 +118,8 @@ def _with_fewer(search: Search, node: Node) -> Iterator[Trial]:
     """Yield sets that lack some of a set's causes, the least first, and tried ones of its effects at fewer elements."""
     members = sorted(node.members, key=lambda each: left_without(search, node, each.hypothesis))
     for place in range(1, len(members)):
-        yield search.trials.of_fewer(members[place:], node.trial)
+        with suppress(RunError):  # such a set has nothing to be compared with
+            yield search.trials.of_fewer(members[place:], node.trial)
     effects, fewer = _effects(node), (each for each in search.nodes if 0 < each.faults < node.faults)
     tried = [each for each in fewer if each.is_known and _effects(each) <= effects]
     tried.sort(key=lambda each: -each.trial.log_evidence)
