@@ -85,12 +85,12 @@ def told(search: Search, judged: Judged, judge: Judge, matters_um: float, with_t
     found = [each for each in found if _own_size_um(search, judged.node, each, shares) >= matters_um] or found[:1]
     if refining and all(_size_um(search, shares[each.hypothesis]) < matters_um for each in found):
         return _told_forms(search, refining)
-    exact = exactly(search, judged.node.trial, [each.hypothesis for each in found])
-    seen = [each for each in found if not is_nothing(search, judged.node, exact, each.hypothesis)] or found[:1]
-    if len(seen) < len(found):
-        found = seen
-        exact = exactly(search, judged.node.trial, [each.hypothesis for each in found])
     grade = graded(search, judged.node, found[0].grade)
+    exact = exactly(search, judged.node.trial, [each.hypothesis for each in found])
+    # Of the first each value may be in doubt while all together are not: six drives that lag, beside a delay that may be.
+    if empty := [each for each in found[1:] if is_nothing(search, judged.node, exact, each.hypothesis)]:
+        found = [each for each in found if each not in empty]
+        exact = exactly(search, judged.node.trial, [each.hypothesis for each in found])
     hypotheses = [each.hypothesis for each in found]
     names = [each.name for each in hypotheses if isinstance(each, Learned)]
     learned = with_learned(search.engine.samples, exact.model, names, search.engine.noise)
