@@ -87,7 +87,7 @@ def told(search: Search, judged: Judged, judge: Judge, matters_um: float, with_t
         return _told_forms(search, refining)
     grade = graded(search, judged.node, found[0].grade)
     exact = exactly(search, judged.node.trial, [each.hypothesis for each in found])
-    # Of the first each value may be in doubt while all together are not: six drives that lag, beside a delay that may be.
+    # Of the first each value may be in doubt while all together are not: six drives that lag, or the gauge is late.
     if empty := [each for each in found[1:] if is_nothing(search, judged.node, exact, each.hypothesis)]:
         found = [each for each in found if each not in empty]
         exact = exactly(search, judged.node.trial, [each.hypothesis for each in found])
