@@ -28,7 +28,7 @@ from hexdbb.units import shown_factor, shown_unit
 
 NEARLY = 0.9
 """Part of the evidence of the least causes from which a value that is off may say all of them, and is fitted to see: to
-first order it came out at 0.94 to 0.98 of what it then had, of four bars 2 to 8 µm off."""
+first order it came out at 0.94 to 0.99 of what it then had, of four bars 2 to 8 µm off."""
 
 MOST_TRIED = 6
 """Sets of the same effects at fewer elements that are asked beside it: an effect at each of six elements alone."""

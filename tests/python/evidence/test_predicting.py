@@ -160,6 +160,18 @@ def test_several_that_explain_by_formulas_give_way_to_none_that_explains_less_by
     assert predicting.or_another_that_predicts(search, several) is (other if gives_way else several)
 
 
+def search_of(*sets: tuple[Any, float]) -> Any:
+    """Return a search that has tried some sets; with each what its formulas leave."""
+    by_formulas = {id(each.trial): left for each, left in sets}
+    return SimpleNamespace(
+        criteria=DEFAULT,
+        root=SimpleNamespace(trial=SimpleNamespace(left=901.0)),
+        nodes=[each for each, _ in sets],
+        checked=lambda each: each.checked,
+        left_by_formulas=lambda trial: by_formulas[id(trial)],
+    )
+
+
 @pytest.mark.parametrize(
     ("formulas", "errors", "left", "is_answer"),
     [
@@ -177,14 +189,7 @@ def test_fewer_effects_whose_formulas_explain_as_much_are_the_answer(
     fewer, several = node_of(2, left, errors), node_of(3, 1.8, SEVERAL)
     for each, faults in ((fewer, 2), (several, 8)):
         each.is_known, each.faults, each.trial.forms = True, faults, (None,)
-    by_formulas = {id(fewer.trial): formulas, id(several.trial): 5.1}
-    search: Any = SimpleNamespace(
-        criteria=DEFAULT,
-        root=SimpleNamespace(trial=SimpleNamespace(left=901.0)),
-        nodes=[several, fewer],
-        checked=lambda each: each.checked,
-        left_by_formulas=lambda trial: by_formulas[id(trial)],
-    )
+    search = search_of((several, 5.1), (fewer, formulas))
     assert predicting.or_fewer_by_formulas(search, several) is (fewer if is_answer else several)
 
 
@@ -199,12 +204,5 @@ def test_fewer_of_their_own_forms_stand_before_more_of_which_one_is_of_another(
     for each, faults, is_odd in ((fewer, 2, of_fewer), (several, 3, of_several)):
         each.is_known, each.faults = True, faults
         each.trial.forms = (None, SimpleNamespace(is_odd=is_odd))
-    by_formulas = {id(fewer.trial): 4.9, id(several.trial): 5.1}
-    search: Any = SimpleNamespace(
-        criteria=DEFAULT,
-        root=SimpleNamespace(trial=SimpleNamespace(left=901.0)),
-        nodes=[several, fewer],
-        checked=lambda each: each.checked,
-        left_by_formulas=lambda trial: by_formulas[id(trial)],
-    )
+    search = search_of((several, 5.1), (fewer, 4.9))
     assert predicting.or_fewer_by_formulas(search, several) is (fewer if is_answer else several)

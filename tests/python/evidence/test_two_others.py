@@ -17,14 +17,15 @@ SCORES = {frozenset({SPIKE, SCREWS[0], SCREWS[2]}): -7058.0}
 """Log evidence of sets; of all others as low as that of the set found."""
 
 
-class Node:
-    """A set with what is asked of it."""
-
-    def __init__(self, *known: Known) -> None:
-        self.members = tuple(map(Member, known))
-        self.hypotheses = known
-        self.is_known, self.score = True, SCORES.get(frozenset(known), -7515.0)
-        self.trial = SimpleNamespace(names=known)
+def node_of(*known: Known) -> Any:
+    """Return a set with what is asked of it."""
+    return SimpleNamespace(
+        members=tuple(map(Member, known)),
+        hypotheses=known,
+        is_known=True,
+        score=SCORES.get(frozenset(known), -7515.0),
+        trial=SimpleNamespace(names=known),
+    )
 
 
 def search_of(monkeypatch: pytest.MonkeyPatch, *, is_sure: bool = False) -> Any:
@@ -39,23 +40,23 @@ def search_of(monkeypatch: pytest.MonkeyPatch, *, is_sure: bool = False) -> Any:
     monkeypatch.setattr(two_others, "is_for_sure", lambda search, node: is_sure)
     monkeypatch.setattr(two_others, "is_better", lambda search, node, than: node.score > than.score)
     monkeypatch.setattr(two_others, "is_admissible", lambda search, node: True)
-    return SimpleNamespace(node=lambda members, near: Node(*(each.hypothesis for each in members)))
+    return SimpleNamespace(node=lambda members, near: node_of(*(each.hypothesis for each in members)))
 
 
 def test_two_screws_stand_for_a_drift_and_the_screw_between_them(monkeypatch: pytest.MonkeyPatch) -> None:
-    found: Any = two_others.or_two_others(search_of(monkeypatch), Node(DRIFT, SPIKE, SCREWS[1]))  # type: ignore[arg-type]
+    found = two_others.or_two_others(search_of(monkeypatch), node_of(DRIFT, SPIKE, SCREWS[1]))
     assert {*found.hypotheses} == {SPIKE, SCREWS[0], SCREWS[2]}
 
 
 def test_what_is_for_sure_and_two_alone_stay(monkeypatch: pytest.MonkeyPatch) -> None:
-    three, two = Node(DRIFT, SPIKE, SCREWS[1]), Node(DRIFT, SPIKE)
-    sure: Any = two_others.or_two_others(search_of(monkeypatch, is_sure=True), three)  # type: ignore[arg-type]
-    pair: Any = two_others.or_two_others(search_of(monkeypatch), two)  # type: ignore[arg-type]
+    three, two = node_of(DRIFT, SPIKE, SCREWS[1]), node_of(DRIFT, SPIKE)
+    sure = two_others.or_two_others(search_of(monkeypatch, is_sure=True), three)
+    pair = two_others.or_two_others(search_of(monkeypatch), two)
     assert (sure, pair) == (three, two)
 
 
 def test_a_pair_with_an_effect_that_is_there_is_no_exchange_of_two(monkeypatch: pytest.MonkeyPatch) -> None:
     """Each one taken out was looked for already."""
-    node = Node(DRIFT, SPIKE, SCREWS[0])
-    found: Any = two_others.or_two_others(search_of(monkeypatch), node)  # type: ignore[arg-type]
+    node = node_of(DRIFT, SPIKE, SCREWS[0])
+    found = two_others.or_two_others(search_of(monkeypatch), node)
     assert found is node

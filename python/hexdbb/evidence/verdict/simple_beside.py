@@ -20,7 +20,8 @@ from hexdbb.evidence.search.settling import predicts
 from hexdbb.learned import Learned
 
 SETS_FITTED = 3
-"""Sets of known effects fitted in full beside the simple function: to first order the best is among the first."""
+"""Sets of known effects fitted in full beside the simple function, those of most evidence to first order: each costs a
+fit. In the record that asked for it, play of three sliders beside lobes, the true set was the first of six."""
 
 
 def or_a_simple_one_beside(search: Search, node: Node) -> Node:
