@@ -22,8 +22,8 @@ from hexdbb.evidence.verdict.exchange import is_admissible
 LEAST_MEMBERS = 3
 """Causes from which two are exchanged beside a third: of two the pairs beside none were screened at first."""
 PAIRS_FITTED = 2
-"""Pairs fitted in full in place of each two: of four causes there are six twos, and each pair costs a fit. In the record
-that asked for it, two screws beside a spike, the true pair was among them."""
+"""Pairs fitted in full in place of each two: of four causes there are six twos, and each pair costs a fit. In the
+record that asked for it, two screws beside a spike, the true pair was among them."""
 
 
 def or_two_others(search: Search, node: Node) -> Node:
