@@ -15,6 +15,12 @@ namespace {
 constexpr double kHalfWindow_rad = 0.4;
 constexpr int kTerms = 7;
 constexpr double kUsed = 0.75;  // of a window, in its middle: with 0.9, the delay is predicted to 0.8 um only
+// How far a polynomial may be from the coordinates that it describes, of their standard deviation: 2 um of a slider on a
+// circle of 100 mm. Where a slow sweep starts from rest, one over five seconds was 0.3 mm off, and a delay of 25 ms was
+// predicted to 25 um there; with 1e-4 it is to 8 um, with this to less than 5. Encoders are within some tenths of 1 um.
+constexpr double kFollows = 3e-5;
+// What is rounded to 0.1 um makes of shorter ones a snap that at 0.2 s of delay is worth more than 1 um.
+constexpr double kLeastHalf_s = 0.2;
 
 using Basis = Eigen::Matrix<double, Eigen::Dynamic, kTerms>;  // a row per instant, a column per polynomial
 using Coefficients = Eigen::Matrix<double, kTerms, kLegs>;
@@ -85,16 +91,19 @@ class Polynomial {
   Coefficients coefficients_ = Coefficients::Zero();
 };
 
+/// Root mean square of coordinates about their means, all six together.
+double spread(const Track& coordinates) {
+  return std::sqrt((coordinates.rowwise() - coordinates.colwise().mean()).rowwise().squaredNorm().mean());
+}
+
 /// Half the length of a window: a harmonic's coordinate is its velocity by its angular frequency. Steps of a lap to its
 /// twentieth part are as good as velocities for that.
-double half_window_s(const Eigen::VectorXd& time_s, const Track& coordinates) {
+double half_window_s(const Eigen::VectorXd& time_s, const Track& coordinates, double spread) {
   const Eigen::Index steps = time_s.size() - 1;
-  const Track about_mean = coordinates.rowwise() - coordinates.colwise().mean();
   const Eigen::ArrayXd squared_step =
       (coordinates.bottomRows(steps) - coordinates.topRows(steps)).rowwise().squaredNorm();
   const Eigen::ArrayXd step_s = time_s.tail(steps) - time_s.head(steps);
-  const double squared_velocity = (squared_step / step_s.square()).mean();
-  return kHalfWindow_rad * std::sqrt(about_mean.rowwise().squaredNorm().mean() / squared_velocity);
+  return kHalfWindow_rad * spread / std::sqrt((squared_step / step_s.square()).mean());
 }
 
 /// Return the window of a stretch of rows: half_s to either side of its middle, or as much to one side as is lacking on
@@ -122,6 +131,19 @@ Window stretch_from(const Eigen::VectorXd& time_s, Eigen::Index first, double ha
   return {first, std::max<Eigen::Index>(beyond - begin - 1, first)};
 }
 
+/// Fill the rows of one stretch, and return the last of them: half as long as long as its polynomial does not follow.
+Eigen::Index fill_from(Eigen::Index first, const Eigen::VectorXd& time_s, const Track& coordinates, double half_s,
+                       double most_off, std::vector<Track>& out) {
+  for (;; half_s /= 2.0) {
+    const Window stretch = stretch_from(time_s, first, half_s);
+    const Window window = window_about(time_s, stretch, half_s);
+    Polynomial(time_s, coordinates, window).fill(time_s, stretch, out);
+    const auto off = (coordinates - out.front()).middleRows(stretch.first, stretch.count());
+    const bool is_short = half_s < 2.0 * kLeastHalf_s || window.count() <= kTerms;
+    if (is_short || off.cwiseAbs().maxCoeff() <= most_off) return stretch.last;
+  }
+}
+
 }  // namespace
 
 std::vector<Track> local_polynomials(const Eigen::VectorXd& time_s, const Track& coordinates, int highest) {
@@ -130,12 +152,14 @@ std::vector<Track> local_polynomials(const Eigen::VectorXd& time_s, const Track&
                          Track::Constant(count, kLegs, std::numeric_limits<double>::quiet_NaN()));
   if (count < 2) return out;
   const double whole_s = time_s[count - 1] - time_s[0];
-  const double sought_s = half_window_s(time_s, coordinates);
-  const double half_s = sought_s < whole_s ? sought_s : whole_s;  // the whole of a sweep that hardly moves
-  for (Window stretch = stretch_from(time_s, 0, half_s);; stretch = stretch_from(time_s, stretch.last + 1, half_s)) {
-    Polynomial(time_s, coordinates, window_about(time_s, stretch, half_s)).fill(time_s, stretch, out);
-    if (stretch.last == count - 1) return out;
+  const double spread_of_all = spread(coordinates), sought_s = half_window_s(time_s, coordinates, spread_of_all);
+  const bool moves = sought_s < whole_s;  // of a sweep that hardly does, one polynomial describes the whole
+  const double half_s = moves ? sought_s : whole_s;
+  const double most_off = moves ? kFollows * spread_of_all : std::numeric_limits<double>::infinity();
+  for (Eigen::Index first = 0; first < count;) {
+    first = fill_from(first, time_s, coordinates, half_s, most_off, out) + 1;
   }
+  return out;
 }
 
 }  // namespace hexdbb

@@ -4,7 +4,8 @@
 // and windows of five rows turn these into a snap that at 0.2 s of delay is worth 30 um, and 5 mm at the ends of a sweep
 // where windows extend to one side. One polynomial over a third of a radian of the motion on either side has all three;
 // at the ends of a sweep they are its own. It is determined once for a stretch of rows and used for all of them, so that
-// the cost does not grow with the rate of sampling.
+// the cost does not grow with the rate of sampling. Where it does not follow, as where a sweep starts from rest, shorter
+// ones do.
 #pragma once
 
 #include <Eigen/Core>

@@ -95,6 +95,41 @@ TEST(Motion, UnevenStampsAreWhatTheySay) {
   EXPECT_LT(lap.off_after(0.1, lap.at(instant_s))[1], 0.2e-3);
 }
 
+/// Phase of a circle that starts from rest: its speed rises as a cosine does, within a part of a second.
+double phase_from_rest(double time_s) {
+  constexpr double kRise_s = 0.7, kSlow = 0.167;  // rad/s, 16.7 mm/s on a circle of 100 mm
+  if (time_s >= kRise_s) return kSlow * (time_s - 0.5 * kRise_s);
+  return 0.5 * kSlow * (time_s - kRise_s / M_PI * std::sin(M_PI * time_s / kRise_s));
+}
+
+class FromRest : public ::testing::TestWithParam<double> {};
+
+TEST_P(FromRest, ADelayIsPredictedWhereASlowSweepStarts) {
+  // One polynomial over five seconds was off by up to 25 um here.
+  constexpr double kDelay_s = 0.025;
+  const Eigen::VectorXd instant_s = Eigen::VectorXd::LinSpaced(static_cast<Eigen::Index>(30.0 * GetParam()), 0.0, 30.0);
+  const auto place_mm = [](double time_s, int k) { return exact(phase_from_rest(time_s) / kOmega, k, 0); };
+  SliderTable sliders_mm(instant_s.size(), kLegs);
+  for (Eigen::Index row = 0; row < instant_s.size(); ++row) {
+    for (int k = 0; k < kLegs; ++k) sliders_mm(row, k) = 1e-4 * std::round(1e4 * place_mm(instant_s[row], k));
+  }
+  const Motion moved = motion(instant_s, Eigen::VectorXi::Zero(instant_s.size()), sliders_mm);
+  double most_mm = 0.0, sum = 0.0;
+  for (Eigen::Index row = 0; row < instant_s.size(); ++row) {
+    for (int k = 0; k < kLegs; ++k) {
+      const double predicted_mm =
+          kDelay_s * (moved.velocity_mm_s(row, k) + 0.5 * kDelay_s * moved.acceleration_mm_s2(row, k));
+      const double off_mm = predicted_mm - (place_mm(instant_s[row] + kDelay_s, k) - place_mm(instant_s[row], k));
+      most_mm = std::max(most_mm, std::abs(off_mm));
+      sum += off_mm * off_mm;
+    }
+  }
+  EXPECT_LT(std::sqrt(sum / static_cast<double>(instant_s.size() * kLegs)), 0.2e-3);
+  EXPECT_LT(most_mm, 5e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Motion, FromRest, ::testing::Values(15.0, 30.0, 100.0));
+
 TEST(Motion, AFewRowsHaveThePolynomialThroughAll) {
   for (const Eigen::Index count : {2, 3, 5, 7}) {
     const Lap lap(Eigen::VectorXd::LinSpaced(count, 0.0, 0.02 * static_cast<double>(count - 1)));

@@ -79,10 +79,12 @@ class Trials:
         Raises
         ------
         RunError
-            Where the engine cannot fit it.
+            Where the engine cannot fit it, or a function is there twice.
         """
         key = _key(members)
         if key not in self._known:
+            if len({each.hypothesis.name for each in members}) < len(members):
+                raise RunError("a set has one function twice")
             ahead = self._ahead.pop(key, None)
             self._known[key] = self._about(
                 tuple(members), self._fitted(members, near) if ahead is None else ahead.result()

@@ -59,7 +59,8 @@ def or_by_refinements(search: Search, node: Node, wider: Node) -> tuple[Node, No
             continue
         for function in wider.members:
             learned = function.hypothesis
-            if not isinstance(learned, Learned) or learned in node.hypotheses:
+            # One of the causes itself, with more splines, is there already.
+            if not isinstance(learned, Learned) or learned.name in node.trial.names:
                 continue
             if not at_its_place(search, member.hypothesis, learned):
                 continue
