@@ -131,6 +131,15 @@ def test_effects_that_nearly_cancel_are_no_causes_for_sure() -> None:
 
 
 @pytest.mark.long
+@pytest.mark.long
+def test_what_nothing_says_is_said_to_be_open() -> None:
+    """A drive that rounds its target to steps of 21 um, finer than readings are apart: a bow says a quarter of it."""
+    found = found_in("target-in-steps")
+    assert found.verdict == "unknown"
+    assert found.remaining is not None
+    assert found.remaining.matters
+
+
 @pytest.mark.parametrize(
     ("name", "choices"),
     [
@@ -327,6 +336,10 @@ def test_play_and_spikes_of_two_sliders_are_told_apart_from_a_lag_of_all() -> No
         pytest.param("lag-that-waves-beside-a-joint", {"servo_lag:5", "joint_offset:2"}, marks=pytest.mark.long),
         # A gauge read a quarter of a second late: 10 um of a slider, and more than that where its motion turns.
         ("delay-and-gain", {"bar_gain", "sample_delay"}),
+        # Sweeps that start from rest, of 15 readings a second: by velocities off in the first seconds of slow ones it was
+        # a function of the platform's, and five drives lagged beside the spike.
+        ("late-from-rest", {"sample_delay"}),
+        pytest.param("spike-and-delay-from-rest", {"reversal_spike:3", "sample_delay"}, marks=pytest.mark.long),
         # In the words of learned functions it gave way to a guideway's side by position and direction.
         pytest.param("screws-and-lag", {"screw_thermal:1", "screw_thermal:5", "servo_lag:3"}, marks=pytest.mark.long),
         pytest.param("two-frictions", {"joint_friction:3", "joint_friction:6"}, marks=pytest.mark.long),

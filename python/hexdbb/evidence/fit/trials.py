@@ -18,6 +18,7 @@ from functools import cached_property, partial
 import numpy as np
 from numpy.typing import NDArray
 
+from hexdbb.errors import RunError
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.fit.fits import fitted
 from hexdbb.evidence.fit.trial import Member, Trial
