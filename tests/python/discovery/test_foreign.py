@@ -336,8 +336,8 @@ def test_play_and_spikes_of_two_sliders_are_told_apart_from_a_lag_of_all() -> No
         pytest.param("lag-that-waves-beside-a-joint", {"servo_lag:5", "joint_offset:2"}, marks=pytest.mark.long),
         # A gauge read a quarter of a second late: 10 um of a slider, and more than that where its motion turns.
         ("delay-and-gain", {"bar_gain", "sample_delay"}),
-        # Sweeps that start from rest, of 15 readings a second: by velocities off in the first seconds of slow ones it was
-        # a function of the platform's, and five drives lagged beside the spike.
+        # Sweeps from rest, 15 readings a second: by velocities that were off in the first seconds of slow ones it was a
+        # function of the platform's, and five drives lagged beside the spike.
         ("late-from-rest", {"sample_delay"}),
         pytest.param("spike-and-delay-from-rest", {"reversal_spike:3", "sample_delay"}, marks=pytest.mark.long),
         # In the words of learned functions it gave way to a guideway's side by position and direction.

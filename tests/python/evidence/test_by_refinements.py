@@ -35,16 +35,14 @@ def test_a_dent_beside_legs_that_sag_is_no_bow() -> None:
 
 
 def test_a_cause_with_more_splines_is_not_put_beside_itself() -> None:
-    """A drive's target rounded to 21 um was a bow and a function of its guideway, which ended a verdict with an error."""
+    """A drive's target in steps of 21 um was a bow and a function of its guideway: the verdict ended with an error."""
     samples = samples_of("dent-beside-sag")
     model = with_set_up_of(samples, new_model(samples.machine))
     search = Search(Engine(samples, model, noise_of(samples), DEFAULT), ["straightness"], DEFAULT)
     bow, dent = Member(Known("straightness", ("2",))), Learned.parse("learned:vertical:2:position")
     alone = search.node((bow,), near=search.root)
     screen = search.screen(alone)
-    node, wider = (
-        search.node((bow, search.member(screen.scored(each))), near=alone) for each in (dent, dent.finer(2))
-    )
+    node, wider = (search.node((bow, search.member(screen.scored(each))), near=alone) for each in (dent, dent.finer(2)))
     assert node.trial.log_evidence < wider.trial.log_evidence
     assert or_by_refinements(search, node, wider) == (node, wider)
     with pytest.raises(RunError, match="twice"):

@@ -30,8 +30,8 @@ if TYPE_CHECKING:
     from hexdbb.evidence.search.search import Search
 
 COARSE_TIMES = 2
-"""Multiple of splines that a load along a direction may have: a hose that goes taut at 35 mm bends a function there. With
-eight splines its direction was 15 degrees off and another place said more; with sixteen it predicts circles left out."""
+"""Multiple of splines that a load along a direction may have: of a hose that goes taut at 35 mm eight splines left more
+than a platform's joint did by the circle's angle; sixteen predict what is left out. Six axes are free enough then."""
 
 
 def around(search: Search, node: Node, member: Member) -> Linear:
