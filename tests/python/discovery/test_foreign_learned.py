@@ -24,10 +24,8 @@ NUMBERS |= {"clamp-leaks": 20.432, "column-sways": 430.0, "mains-hums": 1.0 / 49
 MISSED = 0.2**0.5
 """Error on what was left out, over that without the cause, of one that explains four fifths of the squares there."""
 DIRECTION_DEG = {"hose-pulls": (40.1, 3.0), "foot-rocks": (70.0, 1.0), "foot-tips": (110.5, 3.0)}
-DIRECTION_DEG |= {"hose-goes-taut": (36.9, 15.0)}
 """The same of a direction, and how near: the hose's pull turns with the platform, which no function has, and which
-moves the best direction by two degrees, a fifteenth of what lies between two that are tried. Where it goes taut its
-pull begins with a bend, which sixteen splines follow as well along a direction beside the true one: half of that."""
+moves the best direction by two degrees, a fifteenth of what lies between two that are tried."""
 
 
 @pytest.mark.long
@@ -76,8 +74,6 @@ pull begins with a bend, which sixteen splines follow as well along a direction 
         ("guideway-shakes", "learned:slider:5-6:slider_1_acceleration", {"circle", "feed", "direction"}),
         # A hose pulls the platform aside by elastic legs: a sag, a gain and joints off their places left as little.
         ("hose-pulls", "learned:load:position_along@", {"feed", "direction"}),
-        # One that is slack up to 35 mm: with few splines a platform's joint by the circle's angle said more.
-        ("hose-goes-taut", "learned:load:position_along@", {"circle", "feed", "direction", "lap"}),
         # A cable dragged over a cover, tied beside the platform's middle: functions of the direction stood in.
         ("cable-drags", "learned:load:course", {"circle", "feed", "direction", "lap"}),
         # A fan cools the bar on one side of the circle: it was a function of time.

@@ -102,7 +102,7 @@ def _with_finer_along(search: Search, node: Node) -> Node:
     """
     for member in node.members:
         function = member.hypothesis
-        is_along = isinstance(function, Learned) and is_directed(function.variable)
+        is_along = isinstance(function, Learned) and is_directed(function.variable) and not function.variable.is_coarse
         if not is_along or node.trial.left < search.criteria.refined_to:
             continue
         for finer in more_splines(search, node, member):

@@ -29,10 +29,6 @@ from hexdbb.learned.variable import NUMBERED
 if TYPE_CHECKING:
     from hexdbb.evidence.search.search import Search
 
-COARSE_TIMES = 2
-"""Multiple of splines that a load along a direction may have: of a hose that goes taut at 35 mm eight splines left more
-than a platform's joint did by the circle's angle; sixteen predict what is left out. Six axes are free enough then."""
-
 
 def around(search: Search, node: Node, member: Member) -> Linear:
     """Return the linearisation of a set without one of its functions, about the fit with it."""
@@ -77,8 +73,7 @@ def more_splines(search: Search, node: Node, member: Member) -> Iterator[Member]
     assert isinstance(function, Learned)
     sums = Sums(around(search, node, member), readings, ("circle",))
     screen = Screen(sums, criteria, search.thinned, criteria.tuned_penalties, max(node.trial.left - 1.0, 0.0))
-    multiples = [each for each in criteria.finer_at_once if each <= COARSE_TIMES or not function.variable.is_coarse]
-    for finer in varying([function.finer(times) for times in multiples], readings):
+    for finer in varying([function.finer(times) for times in criteria.finer_at_once], readings):
         if finer.size <= criteria.most_tuned:
             yield search.member(screen.scored(finer), criteria.most_tuned)
 
