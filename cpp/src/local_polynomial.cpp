@@ -15,10 +15,11 @@ namespace {
 constexpr double kHalfWindow_rad = 0.4;
 constexpr int kTerms = 7;
 constexpr double kUsed = 0.75;  // of a window, in its middle: with 0.9, the delay is predicted to 0.8 um only
-// How far a polynomial may be from the coordinates that it describes, of their standard deviation: 2 um of a slider on a
+// How far a polynomial may be from the coordinates that it describes, of their standard deviation: 7 um of a slider on a
 // circle of 100 mm. Where a slow sweep starts from rest, one over five seconds was 0.3 mm off, and a delay of 25 ms was
-// predicted to 25 um there; with 1e-4 it is to 8 um, with this to less than 5. Encoders are within some tenths of 1 um.
-constexpr double kFollows = 3e-5;
+// predicted to more than 25 um there; with this it is to 8 um. With 3e-5, to 5 um, higher harmonics of the motion on a
+// steady circle shorten it as well.
+constexpr double kFollows = 1e-4;
 // What is rounded to 0.1 um makes of shorter ones a snap that at 0.2 s of delay is worth more than 1 um.
 constexpr double kLeastHalf_s = 0.2;
 
