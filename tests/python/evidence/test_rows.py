@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from hexdbb.evidence.linear.rows import blocks_of, means_of, middles_of, one_way
+from hexdbb.evidence.linear.rows import blocks_of, means_of, middles_of
 
 ROWS, LEAD_MM = 4000, 10.0
 
@@ -40,11 +40,3 @@ def test_blocks_stay_within_their_sweeps() -> None:
     sweep = np.repeat([0, 1, 2], [50, 7, 43])
     assert all(len(set(sweep[first : first + length])) == 1 for first, length in zip(begin, count, strict=True))
     assert count.sum() == 100
-
-
-def test_a_block_in_which_something_turns_over_is_its_middle_reading() -> None:
-    begin, count = np.array([0, 3, 6]), np.array([3, 3, 2])
-    directions = np.array([[1, 1, 1, 1, 1, -1, -1, -1], [1, 1, 1, 1, 1, 1, 1, 1]], float).T
-    begin, count = one_way(begin, count, directions)
-    assert begin.tolist() == [0, 4, 6]
-    assert count.tolist() == [3, 1, 2]

@@ -17,7 +17,7 @@ from hexdbb.evidence.linear.absent import Absent, held
 from hexdbb.evidence.linear.axes import LearnedAxes, Standing, learned_of
 from hexdbb.evidence.linear.prior import LEAST_SCALE, prior_scale
 from hexdbb.evidence.linear.readings import ARC, Linear, Readings, State
-from hexdbb.evidence.linear.rows import arcs_of, blocks_of, codes_of, means_of, middles_of, one_way
+from hexdbb.evidence.linear.rows import arcs_of, blocks_of, codes_of, means_of, middles_of
 from hexdbb.learned import Learned
 from hexdbb.model import Model, MountKey, OwnEffect, Tabulated, new_term
 from hexdbb.samples import Samples, of_its_own
@@ -27,9 +27,6 @@ Ints = NDArray[np.intp]
 UNSEEN = 1e-3
 """Information, in values' worth, below which a direction of a learned function that the model has already is left out:
 it stands in every hypothesis alike, and changes the evidence of one over another by less."""
-
-TURNING_OVER = ("travel_direction", "slider_joint_direction")
-"""Columns with which play and friction jump from one reading to the next."""
 
 SCALE_ROUNDS = 2
 """Fits with a wider prior, at most: the first follows the value that the normal prior held back, the second what the
@@ -73,8 +70,6 @@ class Engine:
         within_mm = criteria.block_turns * samples.machine.sliders.screw_lead_mm
         blocks = blocks_of(samples["sweep"], criteria.max_rows)
         begin, count = middles_of(*blocks, samples["sliders_mm"], within_mm)
-        directions = np.column_stack([samples[each] for each in TURNING_OVER])
-        begin, count = one_way(begin, count, directions)
         chosen = begin + count // 2
         self.part = samples.part(chosen)
         averaged = means_of(self.residual_mm, begin, count)

@@ -47,21 +47,6 @@ def middles_of(begin: Ints, count: Ints, sliders_mm: Floats, within_mm: float) -
     return begin + (count - kept) // 2, kept
 
 
-def one_way(begin: Ints, count: Ints, directions: NDArray[np.floating]) -> tuple[Ints, Ints]:
-    """Shorten blocks in which something turns over to the reading in their middle: first row and length of each.
-
-    The mean of what jumps there is on neither side of the jump.
-
-    Parameters
-    ----------
-    begin, count : ndarray of int, shape (blocks,)
-    directions : ndarray, shape (n, k)
-        Senses in which things move, +1 or -1.
-    """
-    turns = (directions[begin] != directions[begin + count - 1]).any(axis=1)
-    return np.where(turns, begin + count // 2, begin), np.where(turns, 1, count)
-
-
 def means_of(values: Floats, begin: Ints, count: Ints) -> Floats:
     """Return the mean of some values in each block."""
     until = np.concatenate([[0.0], np.cumsum(values)])
