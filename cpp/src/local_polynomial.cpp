@@ -16,11 +16,11 @@ constexpr double kHalfWindow_rad = 0.4;
 constexpr int kTerms = 7;
 constexpr double kUsed = 0.75;  // of a window, in its middle: with 0.9, the delay is predicted to 0.8 um only
 // How far a polynomial may be from the coordinates that it describes, of their standard deviation: 7 um of a slider on a
-// circle of 100 mm. Where a slow sweep starts from rest, one over five seconds was 0.3 mm off, and a delay of 25 ms was
-// predicted to more than 25 um there; with this it is to 8 um. With 3e-5, to 5 um, higher harmonics of the motion on a
-// steady circle shorten it as well.
+// circle of 100 mm. Where a sweep of 16.7 mm/s starts from rest, one over five seconds predicts a delay of 25 ms to 97 um,
+// with this it is to 8 um, with 3e-5 to 5 um; but then higher harmonics of some steady circles shorten it as well.
 constexpr double kFollows = 1e-4;
-// What is rounded to 0.1 um makes of shorter ones a snap that at 0.2 s of delay is worth more than 1 um.
+// Half of the shortest window: of positions to 0.1 um, a delay of 0.23 s is predicted to 1 to 2 um (root mean square) by
+// windows of 0.2 s, to 1 to 27 um by those of 0.1 s.
 constexpr double kLeastHalf_s = 0.2;
 
 using Basis = Eigen::Matrix<double, Eigen::Dynamic, kTerms>;  // a row per instant, a column per polynomial
@@ -93,7 +93,7 @@ class Polynomial {
 };
 
 /// Root mean square of coordinates about their means, all six together.
-double spread(const Track& coordinates) {
+double spread_of(const Track& coordinates) {
   return std::sqrt((coordinates.rowwise() - coordinates.colwise().mean()).rowwise().squaredNorm().mean());
 }
 
@@ -132,7 +132,7 @@ Window stretch_from(const Eigen::VectorXd& time_s, Eigen::Index first, double ha
   return {first, std::max<Eigen::Index>(beyond - begin - 1, first)};
 }
 
-/// Fill the rows of one stretch, and return the last of them: half as long as long as its polynomial does not follow.
+/// Fill the rows of one stretch, and return the last of them. A stretch is halved until its polynomial follows.
 Eigen::Index fill_from(Eigen::Index first, const Eigen::VectorXd& time_s, const Track& coordinates, double half_s,
                        double most_off, std::vector<Track>& out) {
   for (;; half_s /= 2.0) {
@@ -153,10 +153,10 @@ std::vector<Track> local_polynomials(const Eigen::VectorXd& time_s, const Track&
                          Track::Constant(count, kLegs, std::numeric_limits<double>::quiet_NaN()));
   if (count < 2) return out;
   const double whole_s = time_s[count - 1] - time_s[0];
-  const double spread_of_all = spread(coordinates), sought_s = half_window_s(time_s, coordinates, spread_of_all);
+  const double spread = spread_of(coordinates), sought_s = half_window_s(time_s, coordinates, spread);
   const bool moves = sought_s < whole_s;  // of a sweep that hardly does, one polynomial describes the whole
   const double half_s = moves ? sought_s : whole_s;
-  const double most_off = moves ? kFollows * spread_of_all : std::numeric_limits<double>::infinity();
+  const double most_off = moves ? kFollows * spread : std::numeric_limits<double>::infinity();
   for (Eigen::Index first = 0; first < count;) {
     first = fill_from(first, time_s, coordinates, half_s, most_off, out) + 1;
   }

@@ -105,7 +105,7 @@ double phase_from_rest(double time_s) {
 class FromRest : public ::testing::TestWithParam<double> {};
 
 TEST_P(FromRest, ADelayIsPredictedWhereASlowSweepStarts) {
-  // One polynomial over five seconds is off by more than twice as much.
+  // One polynomial over five seconds is off by up to 0.1 mm, and by 5 um on average.
   constexpr double kDelay_s = 0.025;
   const Eigen::VectorXd instant_s = Eigen::VectorXd::LinSpaced(static_cast<Eigen::Index>(30.0 * GetParam()), 0.0, 30.0);
   const auto place_mm = [](double time_s, int k) { return exact(phase_from_rest(time_s) / kOmega, k, 0); };

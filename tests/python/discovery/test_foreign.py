@@ -131,15 +131,15 @@ def test_effects_that_nearly_cancel_are_no_causes_for_sure() -> None:
 
 
 @pytest.mark.long
-@pytest.mark.long
 def test_what_nothing_says_is_said_to_be_open() -> None:
-    """A drive that rounds its target to steps of 21 um, finer than readings are apart: a bow says a quarter of it."""
+    """A drive that rounds its target to steps of 21 µm, finer than readings are apart: a bow says a quarter of it."""
     found = found_in("target-in-steps")
     assert found.verdict == "unknown"
     assert found.remaining is not None
     assert found.remaining.matters
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("name", "choices"),
     [
@@ -311,7 +311,7 @@ def test_play_and_spikes_of_two_sliders_are_told_apart_from_a_lag_of_all() -> No
     [
         ("play-differs", {"backlash:2"}),
         ("lead-bends", {"lead_error:5"}),
-        # The bar is 10 um longer than stated: each slider followed the force of its leg.
+        # The bar is 10 µm longer than stated: each slider followed the force of its leg.
         pytest.param("lead-beside-a-longer-bar", {"lead_error:4"}, marks=pytest.mark.long),
         # A bar off as well, which geometry makes up for but for what a bow of a tenth of a millimetre says.
         ("lag-with-a-longer-bar", {"servo_lag:3"}),
@@ -334,7 +334,7 @@ def test_play_and_spikes_of_two_sliders_are_told_apart_from_a_lag_of_all() -> No
         ),
         # A lag that swings by three tenths along the slider: a function of velocity and position, all but in name.
         pytest.param("lag-that-waves-beside-a-joint", {"servo_lag:5", "joint_offset:2"}, marks=pytest.mark.long),
-        # A gauge read a quarter of a second late: 10 um of a slider, and more than that where its motion turns.
+        # A gauge read a quarter of a second late: 10 µm of a slider, and more than that where its motion turns.
         ("delay-and-gain", {"bar_gain", "sample_delay"}),
         # Sweeps from rest, 15 readings a second: by velocities that were off in the first seconds of slow ones it was a
         # function of the platform's, and five drives lagged beside the spike.

@@ -35,7 +35,7 @@ def test_a_dent_beside_legs_that_sag_is_no_bow() -> None:
 
 
 def test_a_cause_with_more_splines_is_not_put_beside_itself() -> None:
-    """A drive's target in steps of 21 um was a bow and a function of its guideway: the verdict ended with an error."""
+    """A drive's target in steps of 21 µm was a bow and a function of its guideway: the verdict ended with an error."""
     samples = samples_of("dent-beside-sag")
     model = with_set_up_of(samples, new_model(samples.machine))
     search = Search(Engine(samples, model, noise_of(samples), DEFAULT), ["straightness"], DEFAULT)
