@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from hexdbb.learned import variables as v
-from hexdbb.learned.following import FAR, LAGGED, RELAXING, SLIPPING, following
+from hexdbb.learned.following import FAR, LAGGED, RELAXING, SLIPPING, following, is_heated
 from hexdbb.learned.variable import ELAPSED, Variable, is_growing
 
 SPLINES = 6
@@ -51,7 +51,7 @@ FACTORS |= {
 
 def is_slow(variable: Variable) -> bool:
     """Whether a variable is a product with what changes over a whole test: time or warmth."""
-    return is_growing(variable.times) or variable.times == FACTORS["warming"][0]
+    return is_growing(variable.times) or variable.times == FACTORS["warming"][0] or is_heated(variable.times)
 
 
 def product(factor: str, variable: Variable) -> Variable:

@@ -3,7 +3,8 @@
 Late (`leg_force_lagged@12`, a first-order lag), up to where it slips (`leg_force_slipping@0.06`), wearing off after it
 changed (`joint_angle_relaxing@12`, the variable less the same lag), lingering (`velocity_lingering@300`: a nut that its
 travel heats), growing towards an end (`time_position_settling@470`, as what warms does; what only creeps is
-`growth_settling@470`), counted from a circle's run-up (`time_in_sweep_after@45`, its angle in degrees), with a sign
+`growth_settling@470`), in proportion to how warm its own motion has made what it moves along
+(`position_heated@500`), counted from a circle's run-up (`time_in_sweep_after@45`, its angle in degrees), with a sign
 that changes smoothly (`direction_position_turning@0.5`, transition rate in mm/s or rad/s), or in two states, of which
 one begins where a variable rises to a number and the other where it falls to a lower one
 (`leg_force_relay@7.1/14.5`, `position_along@35_relay@-8/11`).
@@ -25,6 +26,9 @@ VELOCITY_SPLINES = 12
 PLACES = ("sliders_mm",)
 """Columns that say where something is."""
 LAGGED, RELAXING, SETTLING, AFTER, TURNING = "lagged", "relaxing", "settling", "after", "turning"
+HEATED = "heated"
+HEATED_SPLINES = 6
+"""Splines over the place of what is heated: a beam or a screw between its bearings bends once, as what grows does."""
 CREEP = f"growth_{SETTLING}"
 """What a growth towards an end is called that multiplies no function of another state."""
 SLIPPING = "slipping"
@@ -36,17 +40,20 @@ BY_NUMBER = {
     SLIPPING: "change of the {}, up to the {:.3g} {unit} at which it slips",
     SETTLING: "{} towards an end within about {:.3g} s",
     AFTER: "{} with its run-up of about {:.3g}°",
+    HEATED: "{}, in proportion to the heat of its motion within about {:.3g} s",
     TURNING: "{}, its sign change smoothed over about {:.3g} {unit}",
     RELAY: "two states of the {}: over at {:.3g} {unit}, back at {:.3g} {unit}",
 }
 """How a variable may be derived from another one by a number, in words: delayed, high-passed, held by a contact that
-yields and slips, growing by the law of a first-order lag in place of evenly, counted from the start of the run-up, with
-a smooth change of sign, or in two states that two numbers part."""
+yields and slips, growing by the law of a first-order lag in place of evenly, counted from the start of the run-up, in
+proportion to the heat of its own motion, with a smooth change of sign, or in two states that two numbers part."""
 FAR = "180"
 """Behind the name of what follows another variable: circles are run up to along so many degrees, four times as far."""
 BY_NUMBER |= {f"{how}{FAR}": f"{BY_NUMBER[how]}, with half a circle of run-up" for how in (LAGGED, RELAXING, SLIPPING)}
 RATES = {"travel_direction": ("velocity_mm_s", "mm/s"), "slider_joint_direction": ("slider_joint_rate_rad_s", "rad/s")}
 """For each column that holds a direction of motion: the column of the rate whose sign it is, and the rate's unit."""
+SPEED_OF = {"sliders_mm": "velocity_mm_s"}
+"""For each column of places: that of the velocity whose friction heats what lies there."""
 NUMBER_DIGITS = 4
 """Significant digits of such a number: readings determine it to a few per cent."""
 LEVEL_DIGITS = 6
@@ -61,7 +68,7 @@ def following(variable: Variable, how: str, constant: float) -> Variable:
     variable : Variable
         For `TURNING` one that a direction of `RATES` multiplies, or with a step where its column changes sign.
     how : str
-        `LAGGED`, `RELAXING`, `SLIPPING`, `SETTLING`, `AFTER` or `TURNING`.
+        `LAGGED`, `RELAXING`, `SLIPPING`, `SETTLING`, `HEATED`, `AFTER` or `TURNING`.
     constant : float
         s; degrees for `AFTER`; for `SLIPPING` how far it yields, in the variable's unit; for `TURNING` the transition
         rate, in the unit of the rate.
@@ -75,6 +82,14 @@ def following(variable: Variable, how: str, constant: float) -> Variable:
             times="" if variable.signed else f"{rate}{OF_MEMORY}{how}@{number}",
             turns_within=float(number) if variable.signed else 0.0,
             words=BY_NUMBER[how].format(variable.words, float(number), unit=unit),
+        )
+    if how == HEATED:
+        return replace(
+            variable,
+            name=f"{variable.name}_{how}@{number}",
+            times=f"{SPEED_OF[variable.column]}{OF_MEMORY}{how}@{number}",
+            words=BY_NUMBER[how].format(variable.words, float(number)),
+            count=HEATED_SPLINES,
         )
     if how == SETTLING:
         return replace(
@@ -122,6 +137,11 @@ def two_states(variable: Variable, low: float, high: float) -> Variable:
         signed=False,
         is_log=False,
     )
+
+
+def is_heated(times: str) -> bool:
+    """Whether what multiplies a function is the heat of a motion."""
+    return times.partition(OF_MEMORY)[2].startswith(f"{HEATED}@")
 
 
 def is_relay(variable: Variable) -> bool:

@@ -11,7 +11,7 @@ from dataclasses import replace
 from hexdbb.learned import variables as v
 from hexdbb.learned.combined import CONSTANTS_S, SPLINES, each_way, neighbour, of_drives, product, remembered, slipping
 from hexdbb.learned.directed import along
-from hexdbb.learned.following import AFTER, LAGGED, SETTLING, SLIPPING, creep, following
+from hexdbb.learned.following import AFTER, HEATED, LAGGED, SETTLING, SLIPPING, creep, following
 from hexdbb.learned.repeating import swinging
 from hexdbb.learned.variable import LINGERING, Variable
 
@@ -32,7 +32,7 @@ the nearest of the twelve explains at least 98 % (the square of the cosine of 7.
 
 LINGERING_ANGLE = tuple(following(v.ANGLE, LINGERING, each) for each in CONSTANTS_S[1:])
 """What warms or cools the bar on one side of the circle; what dies away within less follows at once."""
-HEATED = tuple(following(v.VELOCITY, LINGERING, each) for each in HEATS_S)
+HEATED_BY_TRAVEL = tuple(following(v.VELOCITY, LINGERING, each) for each in HEATS_S)
 """A nut or a motor that its own travel heats: the slider's place is off, or the leg grows that stands on it."""
 HEATED_THERE = tuple(following(v.POSITION, LINGERING, each) for each in CONSTANTS_S[2:])
 """What is warmed, or cooled, at one end of the travel, and takes that along, for 20 or 60 s at first: what forgets
@@ -82,6 +82,9 @@ function of one, times a parabola of the other. With eight splines they explaine
 lobes and a patch, at the right leg, and 29 to 78 % at the others; readings may ask for more splines."""
 SINCE_START = tuple(following(v.TIME_IN_SWEEP, AFTER, each) for each in RUN_UPS_DEG)
 SETTLING_POSITION = tuple(following(v.TIME_POSITION, SETTLING, each) for each in GROWTHS_S)
+HEATED_POSITION = tuple(following(v.POSITION, HEATED, each) for each in GROWTHS_S)
+"""A screw that its nut warms grows from its fixed bearing, a beam that its carriages warm on top humps: with the feeds
+of the circles before, not evenly with time."""
 WARMING_POSITION = product("warming", v.POSITION)
 PRODUCTS_OF_SLIDER = (
     *(product("velocity", each) for each in (v.POSITION, v.FORCE, v.DRIVE_LOAD)),
@@ -171,7 +174,7 @@ OF_GUIDEWAY = (
 OF_SLIDER_JOINT = (
     *(v.DIRECTION, v.DIRECTION_POSITION, v.TRAVEL, v.VELOCITY, v.ACCELERATION, v.CARRIAGE_LOAD, v.TIME_IN_SWEEP),
     *SCREW_WAVES,
-    *HEATED,
+    *HEATED_BY_TRAVEL,
     *CREEPING,
     POSITION_EACH_WAY,
 )
@@ -216,7 +219,10 @@ the nearest explains 93 % at least.
 GROWS = (v.TIME, v.WARMING)
 """Variables of what a whole structure does: it grows."""
 
-OF_RAIL = (v.CARRIAGE_LOAD, v.GAP, *PRODUCTS_OF_GUIDEWAY, v.WARMING, *SETTLING_POSITION, *remembered(v.CARRIAGE_LOAD))
+OF_RAIL = (
+    *(v.CARRIAGE_LOAD, v.GAP, *PRODUCTS_OF_GUIDEWAY, v.WARMING, *SETTLING_POSITION, *HEATED_POSITION),
+    *remembered(v.CARRIAGE_LOAD),
+)
 FURTHER: dict[str, tuple[Variable, ...]] = {
     "slider": (
         v.DRIVE_LOAD,
@@ -228,9 +234,10 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
         *NEIGHBOURS,
         *remembered(v.DRIVE_LOAD),
         *SETTLING_POSITION,
+        *HEATED_POSITION,
         *SINCE_START,
         *OTHER_DRIVES,
-        *HEATED,
+        *HEATED_BY_TRAVEL,
         *HEATED_THERE,
         *SCREW_WAVES,
         POSITION_EACH_WAY,
@@ -242,7 +249,7 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
         *(*slipping(v.SWING_ANGLE), *slipping(v.PLATFORM_ANGLE)),  # dry friction in either joint strains the leg
         *SETTLING_POSITION,
         *SINCE_START,
-        *HEATED,
+        *HEATED_BY_TRAVEL,
         *HEATED_THERE,
         *LEG_DIRECTIONS,
         JOINT_ANGLE_EACH_WAY,

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hexdbb.learned.following import is_heated
 from hexdbb.learned.forms import Fit, Floats, fits
 from hexdbb.learned.repeating import period_of_wave
 from hexdbb.learned.signs import turns_gradually
@@ -132,6 +133,8 @@ def _turned(times: str) -> str:
     """Return what multiplies a function, in words."""
     if turns_gradually(times):
         return GRADUAL
+    if is_heated(times):
+        return ", for each mm/s of mean speed, as its heat lasts"
     column, _, how = times.partition(OF_MEMORY)
     if (period := period_of_wave(times)) is not None:
         return f", times the {how.partition('@')[0]} of its phase in {period:.4g} mm"

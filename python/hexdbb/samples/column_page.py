@@ -85,6 +85,11 @@ OWN = {
         "1",
         "column `NAME` as a contact feels it that yields by `X`, in its unit, then slips",
     ),
+    "NAME.heated@S": (
+        "sample",
+        "1",
+        "first-order lag, of `S` seconds, of the amount of the velocity `NAME`: from zero, and zero while it waits",
+    ),
     "NAME.after@D": ("sample", "s", "time `NAME` and what a run-up of `D` degrees takes at the sweep's rate"),
     "NAME.along@D": (
         "sample",

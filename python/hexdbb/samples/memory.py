@@ -7,7 +7,8 @@ these take at the rate at which the circle is driven. What is `along` so many de
 direction in the base's x-y plane, and `cosine` and `sine` are those of a position's phase in a period. What is
 `slipping` follows a change until it is so far from where it would rest, and
 slips beyond: an elastic contact with friction. What is `turning` is the sign of a rate, which is smoothed at zero:
-rate / sqrt(rate² + number²), as regularised Coulomb friction is.
+rate / sqrt(rate² + number²), as regularised Coulomb friction is. What is `heated` is the first-order lag of a speed,
+whichever way it goes, that is zero while the machine waits: friction heats in proportion to it, and air cools.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ Floats = NDArray[np.float64]
 
 FAR = "180"
 """Behind `lagged`, `relaxing` or `slipping`: every circle is run up to along so many degrees."""
-HOW = rf"(?:lagged|relaxing|slipping)(?:{FAR})?|after|along|turning|cosine|sine"
+HOW = rf"(?:lagged|relaxing|slipping)(?:{FAR})?|after|along|turning|cosine|sine|heated"
 NAME = re.compile(rf"(?P<column>\w+)\.(?P<how>{HOW})@(?P<constant>[0-9.e+-]+)")
 PHASES = {"cosine": np.cos, "sine": np.sin}
 LONGEST = 30.0
@@ -50,7 +51,8 @@ def remembered_column(
     Parameters
     ----------
     how : str
-        `lagged`, `relaxing`, `slipping`, with `FAR` behind it or not, `after`, `along`, `turning`, `cosine` or `sine`.
+        `lagged`, `relaxing`, `slipping`, with `FAR` behind it or not, `after`, `along`, `turning`, `cosine`, `sine` or
+        `heated`.
     constant : float
         Its time constant, s; of `after` the run-up, of `along` the direction, degrees; of `slipping` the farthest that
         it yields, in the column's unit; of `turning` a rate; of `cosine` and `sine` the period.
@@ -66,6 +68,9 @@ def remembered_column(
         return np.asarray((values / np.hypot(values, constant)).reshape(column.shape))
     if how in PHASES:
         return np.asarray(PHASES[how](2.0 * np.pi * values / constant).reshape(column.shape))
+    if how == "heated":
+        speed = np.abs(values)
+        return lingering(speed, constant, np.zeros(speed.shape[1]), time_s, sweep, angle_rad).reshape(column.shape)
     sweeps = sweeps_of(sweep)
     if how == "after":
         run_up_s = [np.radians(constant) / _rate_rad_s(time_s[rows], angle_rad[rows]) for rows in sweeps]
@@ -94,13 +99,14 @@ def lingering(
     """Return what is left of values that linger: a first-order lag of them, of their shape (n,) or (n, k).
 
     A nut that its travel heats, a bar that a fan cools on one side: what acts is a function of a state, and dies away.
-    `standing`, shape (k,), are those values while the machine waits between two sweeps; those where the next run-up
-    begins if not given.
+    `standing`, shape (k,), are those values while the machine waits between two sweeps, and before the first; those
+    where the next run-up begins if not given.
     """
     given = values.reshape(len(values), -1)
 
     def follow(at_s: Floats, what: Floats) -> Floats:
-        return _lagged(what, (at_s - at_s[0]) / constant_s, what[0])
+        start = what[0] if standing is None else np.ravel(standing)
+        return _lagged(what, (at_s - at_s[0]) / constant_s, start)
 
     def waiting(next_up: Floats) -> Floats:
         return next_up if standing is None else np.reshape(standing, (1, -1))

@@ -243,6 +243,7 @@ def made(planned: Samples, name: str, function: Callable[[np.ndarray], np.ndarra
         ("learned:slider:4:time_position", lambda x: 1e-4 * (x - x.mean()), set()),
         ("learned:vertical:2:time_position_bent", lambda x: 1e-4 * (x - x.mean()), set()),
         ("learned:vertical:2:time_position_settling@150", lambda x: 1e-4 * (x - x.mean()), set()),
+        ("learned:vertical:3:position_heated@40", lambda x: 1e-5 * (x - x.mean()), set()),
         ("learned:platform_joint:5-6:course", lambda x: 0.01 + 0.0 * x, set()),
         ("learned:platform_joint:1:course_speed", lambda x: 0.01 + 1e-4 * x, set()),
         ("learned:slider:3:velocity_lingering@30", lambda x: 1e-5 * x**2, {"period", "phase"}),

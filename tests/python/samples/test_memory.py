@@ -156,14 +156,27 @@ def test_half_a_circle_of_run_up_tells_how_a_contact_is_strained_where_a_sweep_b
 
 
 def test_what_lingers_dies_away_while_the_machine_waits() -> None:
-    """A nut is heated by the square of its velocity: it cools where the machine stands between two sweeps."""
+    """A nut is heated by the square of its velocity: cold at first, it cools where the machine stands between sweeps."""
     time_s = np.concatenate([np.linspace(0.0, 50.0, 200), np.linspace(80.0, 130.0, 200)])
     sweep = np.repeat(np.array([0, 1], np.int32), 200)
     heat = np.full(400, 4.0)
     found = lingering(heat, 20.0, np.zeros(1), time_s, sweep, NOT_TURNED)
-    assert found[:200] == pytest.approx(4.0)
-    assert found[200] == pytest.approx(4.0 * np.exp(-30.0 / 20.0), rel=1e-3)
+    assert found[:200] == pytest.approx(4.0 * -np.expm1(-time_s[:200] / 20.0))
+    assert found[200] == pytest.approx(found[199] * np.exp(-30.0 / 20.0), rel=1e-3)
     assert found[-1] == pytest.approx(4.0 - (4.0 - found[200]) * np.exp(-50.0 / 20.0), rel=1e-6)
+
+
+def test_what_its_motion_heats_is_warm_by_its_speed_whichever_way_it_goes(record: Record) -> None:
+    """Within a time constant far above the test's it is the way travelled, over that constant."""
+    samples = Samples.of([record])
+    velocity_mm_s, time_s, sweep = (samples[each] for each in ("velocity_mm_s", "time_s", "sweep"))
+    found = samples["velocity_mm_s.heated@1e6"]
+    assert found.shape == velocity_mm_s.shape and found[0] == pytest.approx(0.0, abs=1e-4)
+    first = np.flatnonzero(sweep == sweep[0])
+    speed = np.abs(velocity_mm_s[first])
+    steps = np.diff(time_s[first])[:, None] * 0.5 * (speed[1:] + speed[:-1])
+    travelled_mm = 1e6 * (found[first] - found[first[0]])[1:]
+    assert travelled_mm == pytest.approx(np.cumsum(steps, axis=0), rel=1e-3)
 
 
 def test_where_nothing_is_said_of_waiting_it_waits_where_the_next_sweep_begins() -> None:
