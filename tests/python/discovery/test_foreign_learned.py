@@ -48,7 +48,7 @@ moves the best direction by two degrees, a fifteenth of what lies between two th
         ("rail-warms", "learned:vertical:2:time_position_settling@", {"circle", "feed", "direction"}),
         # One end of a rail, which a coolant tank warms: a screw that shrank and another that grew, for sure.
         ("rail-end-lifts", "learned:vertical:3:time_position_settling@", {"feed", "direction", "lap"}),
-        # Both carriages heat the beam on top, which humps: a function of time there, a load beside it, after two minutes.
+        # Both carriages heat the beam on top, which humps: a function of time there, and a load beside it.
         ("carriages-heat-beam", "learned:vertical:3:position_heated@", {"circle", "feed", "direction", "lap"}),
         # A magnet that slips a little at each approach of the bar: a function of the speed and the time.
         ("cup-slips-each-time", "learned:cup:each_sweep", {"lap"}),

@@ -156,7 +156,7 @@ def test_half_a_circle_of_run_up_tells_how_a_contact_is_strained_where_a_sweep_b
 
 
 def test_what_lingers_dies_away_while_the_machine_waits() -> None:
-    """A nut is heated by the square of its velocity: cold at first, it cools where the machine stands between sweeps."""
+    """A nut is heated by the square of its velocity: cold at first, it cools while the machine stands."""
     time_s = np.concatenate([np.linspace(0.0, 50.0, 200), np.linspace(80.0, 130.0, 200)])
     sweep = np.repeat(np.array([0, 1], np.int32), 200)
     heat = np.full(400, 4.0)
