@@ -71,7 +71,7 @@ class DiagnosisJson(JsonResult):
     """Root mean square residual of the fit."""
     noise_um: NotNegative
     """Standard deviation of one reading."""
-    noise_source: Literal["repeated laps", "stated", "roughness"]
+    noise_source: Literal["repeated laps", "stated", "repeated circles", "roughness"]
     """Where the noise comes from."""
     heldout_before_um: NotNegative | None
     """Root mean square residual on held-out circles, with the start's values; null with one circle."""

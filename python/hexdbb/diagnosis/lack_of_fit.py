@@ -36,7 +36,7 @@ LEAST_ROWS = 40
 """A sweep needs this many samples for its harmonics and a rest to compare them with."""
 WHOLE_LAP = 0.95
 """Part of the longest lap's samples that a lap must have: harmonics of an arc are no harmonics of the circle."""
-NOISE_DOUBT = {"repeated laps": 0.01, "stated": 0.03, "roughness": 0.03}
+NOISE_DOUBT = {"repeated laps": 0.01, "stated": 0.03, "repeated circles": 0.03, "roughness": 0.03}
 """Relative uncertainty of the noise by where it comes from, beside that of its tails (`Noise.tail`)."""
 MAX_PREPARED = 400_000
 """Rows up to which the harmonics are kept: 17 columns of them take 54 MB. Of more readings they are made anew for each

@@ -1,4 +1,4 @@
-"""Noise of the readings: from repeated laps, else the gauge specification, else the readings' own roughness.
+"""Noise of the readings: from repeated laps, else the gauge specification, else repeated circles or roughness.
 
 Repeated laps: the slider positions of two laps at one angle differ by micrometres only, so the difference of their
 readings is noise, whatever the machine's errors are (pure error, in the terms of regression). What a machine without
@@ -8,12 +8,14 @@ that the contour's curvature between two readings does not count; with the earli
 between two readings at part f, white noise s makes differences of variance s^2 (1 + f^2 + (1 - f)^2). Stated: the
 gauge's standard deviation with its rounding (`hexdbb.plan.Gauge`). Roughness: second differences of neighbouring
 readings, harmonics removed as well, cancel what changes smoothly; of white noise s they have the standard deviation
-sqrt(6) s. Differences beyond `CLIP` standard deviations are jumps and do not count in either; the variance that this
-removes from normal noise is restored. Noise may have longer tails than normal noise, and laps sampled at different
-angles about a jump appear to have them: the relative excess of the standard deviation within `TAIL` is an uncertainty
-of the estimate. Nor do the first parts of laps count where their differences are far larger than the usual: what
-settles after a start is in the first lap alone, and is no noise. A median would be robust too, but the readings are
-rounded, so that it could only be one of few values. What rounding is the same in all laps is added (`rounding.py`).
+sqrt(6) s. Where a circle that was driven again, of one lap each time, repeats much better than that
+(`repeated_circles.py`), what is rough is no noise. Differences beyond `CLIP` standard deviations are jumps and do not
+count in either; the variance that this removes from normal noise is restored. Noise may have longer tails than normal
+noise, and laps sampled at different angles about a jump appear to have them: the relative excess of the standard
+deviation within `TAIL` is an uncertainty of the estimate. Nor do the first parts of laps count where their differences
+are far larger than the usual: what settles after a start is in the first lap alone, and is no noise. A median would be
+robust too, but the readings are rounded, so that it could only be one of few values. What rounding is the same in all
+laps is added (`rounding.py`).
 """
 
 from __future__ import annotations
@@ -28,6 +30,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
+from hexdbb.diagnosis.repeated_circles import circle_differences
 from hexdbb.diagnosis.rounding import with_rounding
 from hexdbb.model import new_model
 from hexdbb.plan import LEAST_NOISE_MM
@@ -35,6 +38,7 @@ from hexdbb.samples import Samples, predict
 
 Floats = NDArray[np.float64]
 Rows = NDArray[np.intp]
+Source = Literal["repeated laps", "stated", "repeated circles", "roughness"]
 
 MIN_REPEATS = 100
 """Repeated readings below which laps are not used: a standard deviation from n differences scatters by 1 / sqrt(2 n),
@@ -54,6 +58,9 @@ ROUNDS = 20
 """Iterations of clipping: the clipped variance settles within a few."""
 PARTS = 8
 """Parts of a lap whose differences are compared: what settles after a start does so within a few of them."""
+REPEATS = 0.7
+"""Noise of repeated circles over that of neighbouring readings, below which it counts: half the variance of these was
+then no noise. Of white noise both say the same, to 3 % of some hundred readings."""
 SETTLES = 1.5
 """Times the usual difference from which the first parts of laps hold something that settles, no noise: parts of one
 noise scatter by a tenth, differ by a third where a screw turns by much between two readings; gauges that stick and
@@ -76,7 +83,7 @@ class Noise:
     """
 
     sigma_mm: float
-    source: Literal["repeated laps", "stated", "roughness"]
+    source: Source
     tail: float = 0.0
     rough_mm: float = float("inf")
 
@@ -98,7 +105,13 @@ def noise_of(samples: Samples) -> Noise:
         np.diff(_without_contour(samples["angle_rad"][rows], residual_mm[rows]), n=2) / np.sqrt(6.0)
         for rows in samples.sweeps()
     ]
-    return _estimate_from(np.concatenate(rough), "roughness")
+    found = _estimate_from(np.concatenate(rough), "roughness")
+    again = list(circle_differences(samples, residual_mm, _without_harmonics))
+    if sum(map(len, again)) < MIN_REPEATS:
+        return found
+    repeated_circles = _estimate_from(_steady(again), "repeated circles")
+    repeated_circles = replace(repeated_circles, sigma_mm=with_rounding(samples, repeated_circles.sigma_mm))
+    return repeated_circles if repeated_circles.sigma_mm < REPEATS * found.sigma_mm else found
 
 
 def residual_repeats_to(samples: Samples, residual_mm: Floats) -> float:
@@ -124,7 +137,7 @@ def _roughness(repeated: Sequence[Floats]) -> float:
     return _robust_sigma(np.concatenate([np.diff(each, n=2) / np.sqrt(6.0) for each in repeated]))
 
 
-def _estimate_from(values: Floats, source: Literal["repeated laps", "roughness"]) -> Noise:
+def _estimate_from(values: Floats, source: Source) -> Noise:
     """Estimate the noise from differences scaled to the standard deviation of one reading."""
     sigma = _robust_sigma(values)
     return Noise(sigma, source, max(_within(np.abs(values), TAIL, sigma) / sigma - 1.0, 0.0))
@@ -200,6 +213,11 @@ def less_nominal_mm(samples: Samples) -> Floats:
 def _highest(count: int) -> int:
     """Return the harmonics that are removed from so many readings."""
     return min(HARMONICS, count // READINGS_PER_VALUE // 2)
+
+
+def _without_harmonics(angle_rad: Floats, reading_mm: Floats) -> tuple[Floats, int]:
+    """Remove the lowest harmonics from a sweep's readings; return how many coefficients these have, too."""
+    return _without_contour(angle_rad, reading_mm), 1 + 2 * _highest(len(angle_rad))
 
 
 def _without_contour(angle_rad: Floats, reading_mm: Floats) -> Floats:

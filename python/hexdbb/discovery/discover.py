@@ -30,6 +30,7 @@ from hexdbb.samples import Samples, predict
 from hexdbb.samples.places import with_set_up_of
 from hexdbb.samples.unmeasured import judged_effects, not_measured_sentences, require_judged, with_judged_free
 from hexdbb.threads import one_thread
+from hexdbb.threads.heap import give_back, gives_back
 
 Progress = Callable[[str], None]
 
@@ -39,6 +40,7 @@ LEAST_SWEEPS = 2
 """Sweeps below which no direction, circle or feed can be held out."""
 
 
+@gives_back
 @one_thread
 def discover(
     samples: Samples,
@@ -99,6 +101,8 @@ def discover(
     is_off = fitting is not None and calibrated.is_off(look.search, look.verdict.node, is_sure=look.is_sure)
     if fitting is not None and is_off:
         progress(f"screening again, {joined(calibrated.names)} fitted")
+        look.search.forget()
+        give_back()
         again = Look.of(fitting, names, matters_um, learns=not known_only)
         is_off = again.is_better(look)
         look = again if is_off else look

@@ -87,6 +87,24 @@ def test_one_lap_has_its_roughness() -> None:
     assert found.sigma_mm * 1e3 == pytest.approx(0.5, rel=0.1)
 
 
+def test_a_circle_driven_again_tells_noise_from_what_is_rough_along_it() -> None:
+    """A pitch error of 5 mm, of which two readings are 3 mm apart: neighbours differ by it, the next time does not."""
+    record = clean(2)
+    slow = record.part((record.columns["lap"] == 0) & (record.columns["feed_mm_min"] < 1000.0))
+    once = slow.part(np.arange(len(slow)) % 4 == 0)
+    again = {each: np.concatenate([column, column]) for each, column in once.columns.items()}
+    second = np.arange(2 * len(once)) >= len(once)
+    again["sweep"] = again["sweep"] + (1 + again["sweep"].max()) * second
+    again["t_s"] = again["t_s"] + (60.0 + np.ptp(again["t_s"])) * second
+    silent = replace(once, columns=again, gauge=once.gauge.model_copy(update={"noise_um": None}))
+    noise_um = np.random.default_rng(5).normal(0.0, 0.5, 2 * len(once))
+    for wave_um, source in ((0.0, "roughness"), (4.0, "repeated circles")):
+        rough_um = wave_um * np.sin(2.0 * np.pi * again["s4_mm"] / 5.0)
+        found = noise_of(Samples.of([of_the_machine(silent, rough_um + noise_um)]))
+        assert found.source == source
+        assert found.sigma_mm * 1e3 == pytest.approx(0.5, rel=0.1)
+
+
 def of_the_machine(record: Record, noise_um: np.ndarray) -> Record:
     """Return a record as a machine without errors makes it, but for some noise, shape (n,)."""
     samples = Samples.of([record])

@@ -38,6 +38,32 @@ def test_a_linearisation_that_was_dropped_is_made_anew_with_its_forms(search: Se
     np.testing.assert_allclose(anew.standing, kept.standing, rtol=0.0, atol=1e-6)
 
 
+def test_what_a_search_released_is_made_anew_the_same(search: Search) -> None:
+    learned = search.learnable.simple[0]
+    asked = search.screen(search.root).scored(learned), search.trials.linear(search.root.trial)
+    search.forget()
+    anew = search.screen(search.root).scored(learned), search.trials.linear(search.root.trial)
+    assert anew[1] is not asked[1]
+    assert anew[0].log_evidence == pytest.approx(asked[0].log_evidence, rel=1e-6)
+    np.testing.assert_allclose(anew[1].own, asked[1].own, rtol=1e-9, atol=1e-9)
+    assert search.member(anew[0]).factor == pytest.approx(search.member(asked[0]).factor, rel=1e-5)
+
+
+def test_functions_of_columns_are_released_where_they_are_too_many(
+    search: Search, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    state = search.engine.readings.state
+    first, *others = [state.space(each) for each in search.learnable.simple[:12]]
+    design = state.design(first, 0)
+    assert state.design(first, 0) is design  # kept
+    monkeypatch.setattr("hexdbb.evidence.linear.readings.DESIGNS_BYTES", 2.5 * design.nbytes)
+    for each in others:
+        state.design(each, 0)
+    anew = state.design(first, 0)
+    assert anew is not design
+    np.testing.assert_array_equal(anew, design)
+
+
 def _evidence(trial: Trial) -> float:
     return trial.log_evidence
 

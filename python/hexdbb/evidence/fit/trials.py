@@ -34,8 +34,8 @@ from hexdbb.learned import Learned
 from hexdbb.threads import fits_at_once
 
 Floats = NDArray[np.float64]
-KEPT = 24
-"""Linearisations kept in memory: some megabytes each."""
+KEPT, KEPT_BYTES = 24, 128e6
+"""Linearisations kept in memory, at most: some megabytes each of 10,000 rows, ten where functions have many splines."""
 FORM_ROUNDS = 3
 """Times that an effect's form is asked for, at most, beside the forms of others, which change meanwhile: functions
 chosen in turn settle in the second round mostly."""
@@ -152,6 +152,14 @@ class Trials:
         """Check whether a model with hypotheses was fitted already."""
         return _key(members) in self._known
 
+    def forget(self) -> None:
+        """Release linearisations and what was made of them; each is made anew where it is asked for."""
+        self._linear.clear()
+        self._base.clear()
+        self._ahead.clear()
+        self._last_sums = None
+        self.forms.functions.forget()
+
     def linear(self, trial: Trial) -> Linear:
         """Return a trial's linearisation with the discrepancies; the last few are kept, others made anew."""
         key = _key(trial.members)
@@ -186,9 +194,12 @@ class Trials:
     def _keep(self, key: frozenset[str], linear: Linear, change: Floats) -> Linear:
         """Keep a linearisation, moved to the best values; of too many the one not asked for the longest is dropped."""
         moved = self._linear[key] = linear.moved(change)
-        if len(self._linear) > KEPT:
+        while len(self._linear) > 1 and (len(self._linear) > KEPT or self._kept_bytes() > KEPT_BYTES):
             self._linear.popitem(last=False)
         return moved
+
+    def _kept_bytes(self) -> int:
+        return sum(each.own.nbytes for each in self._linear.values())
 
     def sums(self, trial: Trial, groupings: tuple[str, ...]) -> Sums:
         """Return the sums of a trial's linearisation; those of the model without hypotheses are kept, and the last."""

@@ -125,6 +125,11 @@ class FormFunctions:
         self._square = lru_cache(KEPT_SQUARES)(lambda one, other: own._product(one, other))
         self._parts = lru_cache(KEPT_SQUARES)(lambda function: own._prior(function))
 
+    def forget(self) -> None:
+        """Release what can be made anew."""
+        for kept in (self.signature, self.together, self._square, self._parts):
+            kept.cache_clear()
+
     def columns(self, coefficients: Sequence[tuple[Learned, Floats]]) -> Floats:
         """Return what functions do to the readings together, a column for each of their coefficients' columns."""
         return np.asarray(sum(self.signature(each).table @ factor for each, factor in coefficients), np.float64)

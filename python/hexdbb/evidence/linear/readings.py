@@ -40,6 +40,11 @@ WORTH_A_COPY = 256
 """Hypotheses whose limits take some ten times as long as the copy of a process that looks at them."""
 
 
+DESIGNS_BYTES = 64e6
+"""Memory for the functions of a table's columns, beyond which all are made anew when asked for: those of one screening
+beside another, of 12,000 readings, take half of it, and each number that is tuned has functions of its own."""
+
+
 class State:
     """Columns of some rows by name (`hexdbb.samples`), with the spaces and designs that were made of them.
 
@@ -60,6 +65,7 @@ class State:
         self._spaces: dict[Learned, Space] = {}
         self._alike: dict[tuple[Variable, tuple[int, ...]], Space] = {}
         self._designs: dict[Functions, NDArray[np.float32]] = {}
+        self._bytes = 0
         self._squares: dict[Functions, Floats] = {}
 
     def __getitem__(self, name: str) -> Floats:
@@ -114,9 +120,18 @@ class State:
     def design(self, space: Space, element: int) -> NDArray[np.float32]:
         """Return a space's functions in every row, shape (n, columns), kept: places share their variables."""
         key = _functions(space, element)
-        if key not in self._designs:
-            self._designs[key] = space.design(self, element).astype(np.float32)
-        return self._designs[key]
+        found = self._designs.get(key)
+        if found is None:
+            found = space.design(self, element).astype(np.float32)
+            if self._bytes + found.nbytes > DESIGNS_BYTES:
+                self._designs, self._bytes = {}, 0
+            self._designs[key] = found
+            self._bytes += found.nbytes
+        return found
+
+    def forget(self) -> None:
+        """Release what can be made anew."""
+        self._designs, self._squares, self._bytes = {}, {}, 0
 
     def square(self, space: Space, element: int) -> Floats:
         """Return the mean over rows of B'B of a space's functions B, shape (columns, columns), kept likewise."""

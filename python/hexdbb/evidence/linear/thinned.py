@@ -69,6 +69,12 @@ class Thinned:
             self._kept[hypothesis] = signature_of(hypothesis, self.readings, table=table)
         return self._kept[hypothesis]
 
+    def forget(self) -> None:
+        """Release what can be made anew."""
+        self._kept.clear()
+        self._priors.clear()
+        self.readings.state.forget()
+
     def without_own(self, linear: Linear) -> Floats:
         """Return [J L^-T y'] of the rows of a linearisation (`Training.without_own`)."""
         thin = self.linear(linear)

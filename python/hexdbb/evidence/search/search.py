@@ -94,6 +94,13 @@ class Search:
         self.sure_together: Node | None = None
         """Known effects beside nothing that are what they are by formulas, once these were looked for."""
 
+    def forget(self) -> None:
+        """Release tables that can be made anew, as where another search is made: they are most of its memory."""
+        self.__dict__.pop("_beside_nothing", None)
+        self.trials.forget()
+        self.thinned.forget()
+        self.engine.readings.state.forget()
+
     @cached_property
     def kin(self) -> dict[str, set[str]]:
         """Names of the learned hypotheses that are an effect's element in other words, by the element's name."""

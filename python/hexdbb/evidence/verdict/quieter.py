@@ -34,6 +34,7 @@ def judged(search: Search, matters_um: float | None = None) -> tuple[Search, Ver
     quieter = judging.beside(search.engine.part, _left_mm(search, verdict.node.trial)) if verdict.found else judging
     if quieter is judging:
         return search, verdict
+    search.forget()
     engine = Engine(search.engine.samples, search.engine.base, quieter.noise, search.criteria)
     again = Search(engine, search.known, search.criteria, learns=search.learns)
     return again, judge(again, matters_um)
