@@ -70,7 +70,8 @@ def remembered_column(
         return np.asarray(PHASES[how](2.0 * np.pi * values / constant).reshape(column.shape))
     if how == "heated":
         speed = np.abs(values)
-        return lingering(speed, constant, np.zeros(speed.shape[1]), time_s, sweep, angle_rad).reshape(column.shape)
+        cold = np.zeros(speed.shape[1])
+        return lingering(speed, constant, cold, time_s, sweep, angle_rad, from_standing=True).reshape(column.shape)
     sweeps = sweeps_of(sweep)
     if how == "after":
         run_up_s = [np.radians(constant) / _rate_rad_s(time_s[rows], angle_rad[rows]) for rows in sweeps]
@@ -95,17 +96,21 @@ def lingering(
     time_s: Floats,
     sweep: NDArray[np.integer[Any]],
     angle_rad: Floats,
+    *,
+    from_standing: bool = False,
 ) -> Floats:
     """Return what is left of values that linger: a first-order lag of them, of their shape (n,) or (n, k).
 
     A nut that its travel heats, a bar that a fan cools on one side: what acts is a function of a state, and dies away.
-    `standing`, shape (k,), are those values while the machine waits between two sweeps, and before the first; those
-    where the next run-up begins if not given.
+    `standing`, shape (k,), are those values while the machine waits between two sweeps; those where the next run-up
+    begins if not given. Before the first sweep it moved as it then does, for long, or it stood (`from_standing`): of
+    three records of nuts and motors one was better said by the former, one by the latter, one by either; what is in
+    proportion to heat is quite another from a cold start, and was cold on the one record that has it.
     """
     given = values.reshape(len(values), -1)
 
     def follow(at_s: Floats, what: Floats) -> Floats:
-        start = what[0] if standing is None else np.ravel(standing)
+        start = what[0] if standing is None or not from_standing else np.ravel(standing)
         return _lagged(what, (at_s - at_s[0]) / constant_s, start)
 
     def waiting(next_up: Floats) -> Floats:

@@ -41,6 +41,13 @@ def test_it_is_asked_for_in_place_of_the_least_of_sure_causes() -> None:
     assert found.remarks[0].startswith("the bar is 6.")
 
 
+def test_it_is_asked_for_in_place_of_a_cause_that_is_not_for_sure() -> None:
+    """A gauge read 9.2 ms late, and a bar 3.1 µm shorter than stated: all six screws had one lead besides."""
+    found = found_in("late-gauge-shorter-bar")
+    assert [each.choice for each in found.causes] == ["sample_delay"]
+    assert found.calibrated == ("bar_length",)
+
+
 def test_it_is_added_first_and_not_again() -> None:
     samples = samples_of(LONGER)
     step, last = discover_all(samples, new_model(samples.machine))

@@ -85,6 +85,17 @@ def test_a_pitch_error_sampled_twice_a_turn_is_found_whole() -> None:
     assert found.best.share > 0.9
 
 
+def test_a_pitch_error_of_two_readings_a_turn_is_no_noise() -> None:
+    """Circles of one lap, no noise stated: neighbouring readings differ by the pitch error, by all of the 2.3 µm left.
+
+    At another feed each circle repeats to 0.4 µm, which is the noise.
+    """
+    found = found_in("pitch-in-one-lap")
+    assert found.noise.source == "repeated circles"
+    assert found.noise.sigma_mm * 1e3 == pytest.approx(0.39, rel=0.05)
+    assert [each.choice for each in found.causes] == ["pitch_cyclic:6"]
+
+
 @pytest.mark.long
 def test_a_formula_that_explains_nearly_all_is_named_though_circles_hardly_hold_geometry() -> None:
     """Ten circles about three cups: functions of two screws together erred less there, and stood for a pitch error."""

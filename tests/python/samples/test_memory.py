@@ -156,14 +156,17 @@ def test_half_a_circle_of_run_up_tells_how_a_contact_is_strained_where_a_sweep_b
 
 
 def test_what_lingers_dies_away_while_the_machine_waits() -> None:
-    """A nut is heated by the square of its velocity: cold at first, it cools while the machine stands."""
+    """A nut is heated by the square of its velocity: it cools where the machine stands between two sweeps."""
     time_s = np.concatenate([np.linspace(0.0, 50.0, 200), np.linspace(80.0, 130.0, 200)])
     sweep = np.repeat(np.array([0, 1], np.int32), 200)
     heat = np.full(400, 4.0)
     found = lingering(heat, 20.0, np.zeros(1), time_s, sweep, NOT_TURNED)
-    assert found[:200] == pytest.approx(4.0 * -np.expm1(-time_s[:200] / 20.0))
-    assert found[200] == pytest.approx(found[199] * np.exp(-30.0 / 20.0), rel=1e-3)
+    assert found[:200] == pytest.approx(4.0)
+    assert found[200] == pytest.approx(4.0 * np.exp(-30.0 / 20.0), rel=1e-3)
     assert found[-1] == pytest.approx(4.0 - (4.0 - found[200]) * np.exp(-50.0 / 20.0), rel=1e-6)
+    cold = lingering(heat, 20.0, np.zeros(1), time_s, sweep, NOT_TURNED, from_standing=True)
+    assert cold[:200] == pytest.approx(4.0 * -np.expm1(-time_s[:200] / 20.0))
+    assert cold[200] == pytest.approx(cold[199] * np.exp(-30.0 / 20.0), rel=1e-3)
 
 
 def test_what_its_motion_heats_is_warm_by_its_speed_whichever_way_it_goes(record: Record) -> None:
