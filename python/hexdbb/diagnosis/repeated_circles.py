@@ -44,5 +44,7 @@ def circle_differences(
         # As large as the noise is without what the harmonics took of it.
         left_mm[rows], number[rows] = left * np.sqrt(len(rows) / (len(rows) - removed)), place
         driven.setdefault(tuple(int(samples[each][rows[0]]) for each in SAME), []).append(rows)
-    pairs = [np.concatenate(pair) for times in driven.values() for pair in pairwise(times)]
+    # The earlier of two is interpolated: that with more readings.
+    ordered = (sorted(times, key=len, reverse=True) for times in driven.values())
+    pairs = [np.concatenate(pair) for times in ordered for pair in pairwise(times)]
     yield from _core.lap_differences(angle_rad, number, left_mm, pairs, [0] * len(pairs))
