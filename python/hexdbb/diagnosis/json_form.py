@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
 
+from hexdbb.diagnosis.noise import Source
 from hexdbb.files.results import Count, JsonPart, JsonResult, NotNegative, Share, number_or_none
 from hexdbb.model import Model
 
@@ -71,7 +71,7 @@ class DiagnosisJson(JsonResult):
     """Root mean square residual of the fit."""
     noise_um: NotNegative
     """Standard deviation of one reading."""
-    noise_source: Literal["repeated laps", "stated", "repeated circles", "roughness"]
+    noise_source: Source
     """Where the noise comes from."""
     heldout_before_um: NotNegative | None
     """Root mean square residual on held-out circles, with the start's values; null with one circle."""

@@ -60,7 +60,7 @@ PARTS = 8
 """Parts of a lap whose differences are compared: what settles after a start does so within a few of them."""
 REPEATS = 0.7
 """Noise of repeated circles over that of neighbouring readings, below which it counts: half the variance of these was
-then no noise. Of white noise both say the same, to 3 % of some hundred readings."""
+then no noise. Of white noise both say the same; of two blind records with 0.39 and 0.79 µm they said 0.40 and 0.82."""
 SETTLES = 1.5
 """Times the usual difference from which the first parts of laps hold something that settles, no noise: parts of one
 noise scatter by a tenth, differ by a third where a screw turns by much between two readings; gauges that stick and

@@ -83,20 +83,16 @@ def following(variable: Variable, how: str, constant: float) -> Variable:
             turns_within=float(number) if variable.signed else 0.0,
             words=BY_NUMBER[how].format(variable.words, float(number), unit=unit),
         )
-    if how == HEATED:
-        return replace(
-            variable,
-            name=f"{variable.name}_{how}@{number}",
-            times=f"{SPEED_OF[variable.column]}{OF_MEMORY}{how}@{number}",
-            words=BY_NUMBER[how].format(variable.words, float(number)),
-            count=HEATED_SPLINES,
+    if how in (HEATED, SETTLING):
+        times, count = (
+            (SPEED_OF[variable.column], HEATED_SPLINES) if how == HEATED else (variable.times, variable.count)
         )
-    if how == SETTLING:
         return replace(
             variable,
             name=f"{variable.name}_{how}@{number}",
-            times=f"{variable.times}{OF_MEMORY}{how}@{number}",
+            times=f"{times}{OF_MEMORY}{how}@{number}",
             words=BY_NUMBER[how].format(variable.words, float(number)),
+            count=count,
         )
     return replace(
         variable,
@@ -137,6 +133,11 @@ def two_states(variable: Variable, low: float, high: float) -> Variable:
         signed=False,
         is_log=False,
     )
+
+
+def may_be_heated(variable: Variable) -> bool:
+    """Whether a variable is a place alone, along which something moves."""
+    return variable.column in SPEED_OF and not variable.times and not variable.period
 
 
 def is_heated(times: str) -> bool:

@@ -12,7 +12,18 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from hexdbb.learned.directed import ALONG, along
-from hexdbb.learned.following import BY_NUMBER, CREEP, RELAY, TURNING, creep, following, is_relay, two_states
+from hexdbb.learned.following import (
+    BY_NUMBER,
+    CREEP,
+    HEATED,
+    RELAY,
+    TURNING,
+    creep,
+    following,
+    is_relay,
+    may_be_heated,
+    two_states,
+)
 from hexdbb.learned.repeating import (
     BY_FEED,
     BY_MOUNT,
@@ -108,5 +119,7 @@ def numbered(name: str, variables: Sequence[Variable]) -> Variable | None:
     if how == WAVE:
         return wave(known[of], values[0]) if of in WAVES and of in known else None
     if how not in BY_NUMBER or of not in known or (how == TURNING and turns_with(known[of]) is None):
+        return None
+    if how == HEATED and not may_be_heated(known[of]):
         return None
     return following(known[of], how, values[0])

@@ -163,6 +163,8 @@ def test_what_acts_within_what(one: str, place: str, element: int, expected: boo
         ("learned:ball:position_along@30", "variable 'position_along@30' (expected one of time"),
         ("learned:platform:position", "variable 'position' (expected one of time, warming)"),
         ("learned:lateral:all:position", "variable 'position' (expected one of time, warming)"),
+        ("learned:leg:5:joint_angle_heated@60", "variable 'joint_angle_heated@60'"),
+        ("learned:slider:2:velocity_position_heated@60", "variable 'velocity_position_heated@60'"),
     ],
 )
 def test_what_is_not_there_is_refused(name: str, said: str) -> None:

@@ -35,7 +35,8 @@ from hexdbb.threads import fits_at_once
 
 Floats = NDArray[np.float64]
 KEPT, KEPT_BYTES = 24, 128e6
-"""Linearisations kept in memory, at most: some megabytes each of 10,000 rows, ten where functions have many splines."""
+"""Linearisations kept in memory, at most, and their size: some megabytes each of 10,000 rows, ten where functions have
+many splines; 24 of those took 300 MB, and a search takes as long with fewer."""
 FORM_ROUNDS = 3
 """Times that an effect's form is asked for, at most, beside the forms of others, which change meanwhile: functions
 chosen in turn settle in the second round mostly."""

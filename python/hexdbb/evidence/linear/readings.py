@@ -41,8 +41,8 @@ WORTH_A_COPY = 256
 
 
 DESIGNS_BYTES = 64e6
-"""Memory for the functions of a table's columns, beyond which all are made anew when asked for: those of one screening
-beside another, of 12,000 readings, take half of it, and each number that is tuned has functions of its own."""
+"""Memory for the functions of a table's columns, beyond which all are made anew when asked for: each number that is
+tuned has functions of its own, and those of a search of 11,500 rows took 360 MB. A search is as fast without them."""
 
 
 class State:
