@@ -83,10 +83,10 @@ def _is_of_its_element(search: Search, node: Node, fewer: Trial) -> bool:
     """
     few = [each.hypothesis for each in fewer.members if isinstance(each.hypothesis, Known)]
     more = [each for each in node.hypotheses if isinstance(each, Known) and each not in few]
-    return bool(more) and all(any(_is_at_one_element(search, each, one) for one in few) for each in more)
+    return bool(more) and all(any(push_one_element(search, each, one) for one in few) for each in more)
 
 
-def _is_at_one_element(search: Search, one: Known, other: Known) -> bool:
+def push_one_element(search: Search, one: Known, other: Known) -> bool:
     """Check that two effects push the same element; of what is but one, as the gauge, each has its own law."""
     if one.is_whole or other.is_whole or {*one.elements}.isdisjoint(other.elements):
         return False

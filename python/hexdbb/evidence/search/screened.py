@@ -75,6 +75,15 @@ def known_beside(search: Search, base: Trial, screen: Screen) -> list[Scored]:
     return list(kept[id(base.model)])
 
 
+def known_by_formulas(search: Search, base: Trial) -> list[Scored]:
+    """Screen the known effects beside those of a trial without the functions of their forms, the likeliest first."""
+    readings = search.engine.readings
+    linear = search.engine.linearised(base.model).linear
+    linear = linear.moved(Sums(linear, readings, ()).whole.own_values())
+    screen = Screen(Sums(linear, readings, ("circle",)), search.criteria, search.thinned)
+    return sorted(_known_beside(search, base, screen), key=lambda each: -each.log_evidence)
+
+
 def _known_beside(search: Search, base: Trial, screen: Screen) -> list[Scored]:
     absent = search.engine.absent
     kinds = {name for name in search.known if search.is_whole(name)}

@@ -26,6 +26,7 @@ from hexdbb.evidence.verdict.each_element import or_at_each_element
 from hexdbb.evidence.verdict.exchange import of_better_form, settled, with_found_beside
 from hexdbb.evidence.verdict.further_elements import with_elements_that_predict
 from hexdbb.evidence.verdict.hidden import with_what_forms_hide
+from hexdbb.evidence.verdict.beside_formulas import with_what_formulas_leave
 from hexdbb.evidence.verdict.known_words import in_known_words
 from hexdbb.evidence.verdict.one_cause import is_refined, left_without, without_borrowed_forms
 from hexdbb.evidence.verdict.one_element import or_one_element
@@ -145,7 +146,7 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     fine = or_at_the_rails(search, or_one_fine_enough(search, node))
     fine = or_at_the_rails(search, or_at_another_place(search, fine))
     node = or_a_simple_one_beside(search, node if fine is node else in_known_words(search, fine))
-    node = with_known_left(search, node)
+    node = with_what_formulas_leave(search, with_known_left(search, node))
     if (forms := as_forms(search, node)) is not None:
         return Verdict("none", (), search.root, None, before, forms)
     node = in_simple_words(search, with_periods(search, node))
