@@ -19,6 +19,7 @@ from hexdbb.evidence.search.sure import Grade, graded, is_for_sure
 from hexdbb.evidence.search.tuned import with_numbers_of, with_tuned_numbers
 from hexdbb.evidence.search.turning import with_turning
 from hexdbb.evidence.verdict.as_forms import as_forms
+from hexdbb.evidence.verdict.beside_formulas import with_what_formulas_leave
 from hexdbb.evidence.verdict.by_function import is_by_form, or_by_functions, or_by_refinements
 from hexdbb.evidence.verdict.by_growth import or_one_that_grows
 from hexdbb.evidence.verdict.by_period import with_periods
@@ -26,7 +27,6 @@ from hexdbb.evidence.verdict.each_element import or_at_each_element
 from hexdbb.evidence.verdict.exchange import of_better_form, settled, with_found_beside
 from hexdbb.evidence.verdict.further_elements import with_elements_that_predict
 from hexdbb.evidence.verdict.hidden import with_what_forms_hide
-from hexdbb.evidence.verdict.beside_formulas import with_what_formulas_leave
 from hexdbb.evidence.verdict.known_words import in_known_words
 from hexdbb.evidence.verdict.one_cause import is_refined, left_without, without_borrowed_forms
 from hexdbb.evidence.verdict.one_element import or_one_element
