@@ -145,7 +145,8 @@ def _has_functions_more(search: Search, other: Node, node: Node) -> bool:
 def _nearly_as_good(search: Search, node: Node, cause: Hypothesis, form: Form) -> list[str]:
     """Return sets without a cause that explain nearly as much, at once or better than with so different a form.
 
-    What explains more than the effect's formula does, all but the square of its deviation, needs no form at all.
+    What explains more than the effect's formula does, all but the square of its deviation, needs no form at all: known
+    effects by their own formulas. Six drives that lag, each by its form, were friction of one leg, a third off.
     """
     excess = search.root.trial.left - 1.0
     share = max(search.criteria.same_kind_share, form.deviation**2)
@@ -154,9 +155,13 @@ def _nearly_as_good(search: Search, node: Node, cause: Hypothesis, form: Form) -
         for other in sorted(search.nodes, key=lambda each: each.trial.left)
         if not has_kind(search, other, cause)
         and not _has_it_elsewhere(other, node, cause)
-        and other.trial.left - node.trial.left < share * excess
+        and _left_without_forms(search, other) - node.trial.left < share * excess
         and not (other.trial.refused or search.checked(other).reasons)
     ]
+
+
+def _left_without_forms(search: Search, node: Node) -> float:
+    return search.left_by_formulas(node.trial) if node.is_known else node.trial.left
 
 
 def _errs_no_more(search: Search, node: Node, cause: Hypothesis) -> list[str]:
