@@ -131,8 +131,8 @@ def _is_by_form(search: Search, node: Node, learned: Learned) -> bool:
 def _is_of_another_form(search: Search, node: Node, than: Node) -> bool:
     """Check for one known effect whose form is measured well, is quite another, and has far less evidence.
 
-    However much its formula explains, it is no such effect: a drive that falls behind above a speed only. Unless that is
-    nearly all, and its form leaves what the function does: friction of which the turning over was smoother by a fifth.
+    However much its formula explains, it is no such effect: a drive that falls behind above a speed only. Unless that
+    is nearly all, and its form leaves what the function does: friction of joints that turn over more smoothly.
     """
     if len(node.members) > 1 or than.score - node.score <= FAR_BEHIND:
         return False
