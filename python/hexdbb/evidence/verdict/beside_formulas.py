@@ -61,7 +61,8 @@ def _is_there(search: Search, node: Node, wider: Node) -> bool:
     if wider.trial.refused or wider.score - node.score < search.criteria.detect_nats or not predicts(search, wider):
         return False
     by_formulas, by_forms = _explains_of_formulas(search, node, wider), _explains_of_forms(search, node, wider)
-    if any(isinstance(each, Known) and push_one_element(search, each, last) for each in node.hypotheses):
+    known = [each for each in node.hypotheses if isinstance(each, Known)]
+    if isinstance(last, Known) and any(push_one_element(search, each, last) for each in known):
         return by_formulas and by_forms
     return by_formulas or (by_forms and node.trial.left - 1.0 >= NOISE)
 
