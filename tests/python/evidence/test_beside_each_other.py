@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from hexdbb import _core
 from hexdbb.diagnosis import judging_noise
@@ -44,10 +46,10 @@ def test_the_same_as_one_after_another(samples: Samples) -> None:
 def test_one_that_cannot_be_fitted(samples: Samples, monkeypatch: pytest.MonkeyPatch) -> None:
     search, fit = search_of(samples), Engine.fit
 
-    def refusing(engine: Engine, model: Model) -> Fitted:
+    def refusing(engine: Engine, model: Model, less: NDArray[np.float64] | None = None) -> Fitted:
         if model.term("servo_lag") is not None:
             raise RunError("no usable solution")
-        return fit(engine, model)
+        return fit(engine, model, less=less)
 
     monkeypatch.setattr(Engine, "fit", refusing)
     first, second, third = search.trials.each_of(EVERY)

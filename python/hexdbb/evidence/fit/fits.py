@@ -19,8 +19,16 @@ from hexdbb.evidence.linear.engine import Engine, Fitted
 from hexdbb.evidence.linear.screen import Known
 from hexdbb.model import Model, Term
 
+Floats = NDArray[np.float64]
 
-def fitted(engine: Engine, members: Sequence[Member], before: Trial | None = None, near: Trial | None = None) -> Fitted:
+
+def fitted(
+    engine: Engine,
+    members: Sequence[Member],
+    before: Trial | None = None,
+    near: Trial | None = None,
+    less: Floats | None = None,
+) -> Fitted:
     """Fit the model of some members.
 
     Parameters
@@ -31,6 +39,8 @@ def fitted(engine: Engine, members: Sequence[Member], before: Trial | None = Non
         Of all but the last, from which the fit begins; from the start of all fits where not given.
     near : Trial, optional
         Of nearly the same members: the fit starts from its values.
+    less : ndarray, shape (n,), optional
+        What stands beside the members, as the functions of their forms do, in noise standard deviations.
 
     Raises
     ------
@@ -47,21 +57,21 @@ def fitted(engine: Engine, members: Sequence[Member], before: Trial | None = Non
     known = [each.hypothesis for each in added if isinstance(each.hypothesis, Known)]
     # Shapes of known effects that `near` has are known from there: one start serves.
     if near is not None and {each.name for each in known} <= {*near.names}:
-        return engine.fit(_from(near.model, model), from_minimum=True)
+        return engine.fit(_from(near.model, model), from_minimum=True, less=less)
     shapes, one_for_all = (
         _free_shapes(model, {each.effect for each in some})
         for some in (known, [each for each in known if len(each.elements) > 1])
     )
     if not shapes.any():
-        return engine.fit(model)
+        return engine.fit(model, less=less)
     if one_for_all.any():
-        return _with_one_shape_for_all(engine, model, one_for_all)
+        return _with_one_shape_for_all(engine, model, one_for_all, less)
     starts = engine.criteria.shape_starts
     begun = [np.where(shapes, start * model.prior_sigma, model.values) for start in starts]
-    return engine.fit(model.with_values(begun[0]), starts=begun[1:])
+    return engine.fit(model.with_values(begun[0]), starts=begun[1:], less=less)
 
 
-def _with_one_shape_for_all(engine: Engine, model: Model, shapes: NDArray[np.bool_]) -> Fitted:
+def _with_one_shape_for_all(engine: Engine, model: Model, shapes: NDArray[np.bool_], less: Floats | None) -> Fitted:
     """Fit a model whose effects share their shapes among elements: one is held, each value a fit of its own.
 
     Where an effect has two shapes, as a spike at reversals has its time and its travel, the second follows the
@@ -73,18 +83,18 @@ def _with_one_shape_for_all(engine: Engine, model: Model, shapes: NDArray[np.boo
         at = shapes & (np.array(names) == name)
         start = model if best is None else best.model
         held = (np.where(at, each * model.prior_sigma, start.values) for each in engine.criteria.shapes_for_all)
-        found = _best_fit(engine, (start.with_values(each) for each in held))
+        found = _best_fit(engine, (start.with_values(each) for each in held), less)
         best = found if best is None or found.linear.log_evidence > best.linear.log_evidence else best
     assert best is not None
     return best
 
 
-def _best_fit(engine: Engine, models: Iterable[Model]) -> Fitted:
+def _best_fit(engine: Engine, models: Iterable[Model], less: Floats | None) -> Fitted:
     """Fit several models, and return the fit of most evidence."""
     found = []
     for each in models:
         try:
-            found.append(engine.fit(each))
+            found.append(engine.fit(each, less=less))
         except RunError:
             continue
     if not found:

@@ -121,7 +121,9 @@ class Engine:
                 model = replace(model.knowing_effects([fewer]), terms=terms)
         return model
 
-    def fit(self, model: Model, from_minimum: bool = False, starts: Sequence[Floats] = ()) -> Fitted:
+    def fit(
+        self, model: Model, from_minimum: bool = False, starts: Sequence[Floats] = (), less: Floats | None = None
+    ) -> Fitted:
         """Fit a model's free values to some of the rows and linearise about the fit.
 
         What the other rows add is first order (`Trials` takes that step); they cost most of a fit's time.
@@ -133,6 +135,8 @@ class Engine:
             The minimum is near the model's values.
         starts : sequence of ndarray, shape (size,)
             Further values from which to begin; those that are held stay the model's.
+        less : ndarray, shape (n,), optional
+            What the model need not describe of each row, in noise standard deviations; the linearisation has it.
 
         Raises
         ------
@@ -142,15 +146,16 @@ class Engine:
         shaped = np.array([each.shape is not None for each in model.parameters()])
         rounds = self.criteria.shape_rounds if (shaped & model.free).any() else 1
         used = np.ones(len(shaped))
+        wanted_mm = self.reading_mm if less is None else self.reading_mm - less * self.row_noise_mm
         for _ in range(rounds):
-            model, starts = self._fitted_once(model, shaped, used, from_minimum, starts), ()
+            model, starts = self._fitted_once(model, wanted_mm, shaped, used, from_minimum, starts), ()
         found = self.linearised(model)
         # An effect that turns out larger than expected is fitted again, where its prior no longer pulls at it.
         for _ in range(SCALE_ROUNDS):
             scale = self._scale_of(model, found.linear.residual)
             if np.max(np.abs(np.log(scale / used)), initial=0.0) < np.log(LEAST_SCALE):
                 break
-            model, used = self._fitted_once(model, shaped, scale, from_minimum=True), scale
+            model, used = self._fitted_once(model, wanted_mm, shaped, scale, from_minimum=True), scale
             found = self.linearised(model)
         return found
 
@@ -188,6 +193,7 @@ class Engine:
     def _fitted_once(
         self,
         model: Model,
+        wanted_mm: Floats,
         shaped: NDArray[np.bool_],
         prior_scale: Floats,
         from_minimum: bool,
@@ -199,7 +205,7 @@ class Engine:
         result = _core.fit(
             model.engine(partial(self._tabulate, part, self._fitted_state)),
             self._block(part, model),
-            self.reading_mm[fewer],
+            wanted_mm[fewer],
             noise_mm=float(np.mean(self.row_noise_mm)) * float(np.sqrt(len(fewer) / len(self.reading_mm))),
             free=[bool(each) for each in model.free],
             hypothesis=True,
