@@ -8,7 +8,9 @@ from hexdbb.errors import RunError
 from hexdbb.evidence.fit.admissible import errs_by_chance
 from hexdbb.evidence.fit.trial import Member
 from hexdbb.evidence.linear.readings import ARC
+from hexdbb.evidence.linear.screen import Hypothesis
 from hexdbb.evidence.search.needed import needs_all
+from hexdbb.evidence.search.no_form import NOISE
 from hexdbb.evidence.search.settling import errs_as_expected, explained_by_formulas, is_complete, predicts
 
 if TYPE_CHECKING:
@@ -63,14 +65,34 @@ def explains_by_its_own(search: Search, node: Node, member: Member, least: float
     return is_enough and explains >= least * (others - node.trial.left)
 
 
+def are_no_form_of(search: Search, node: Node, hypothesis: Hypothesis) -> bool:
+    """Check that all but one of a set are no form of that: each explains by its formula nearly all that is left.
+
+    A sag of five times the noise beside a pitch error of thirty: the form of that could have been off by so much, but
+    the sag's formula said nine tenths of the fifteen noise variances that it left.
+    """
+    others = [each for each in node.members if each.hypothesis != hypothesis]
+    return 0 < len(others) < len(node.members) and all(_is_no_form(search, node, each) for each in others)
+
+
+def _is_no_form(search: Search, node: Node, member: Member) -> bool:
+    try:
+        left = search.trials.of(node.without(member)).left
+    except RunError:
+        return False
+    return left - 1.0 >= NOISE and explains_by_its_own(search, node, member, search.criteria.formula_leaves)
+
+
 def err_by_geometry(search: Search, node: Node) -> bool:
     """Check for known effects, each by its own formula, whose error where left out geometry and chance make up.
 
-    Where one hypothesis alone leaves no more than forms may, several are no simpler.
+    Where one hypothesis alone leaves no more than forms may, several are no simpler; but where it is one of them and
+    the others are no form of it.
     """
     if not explain_by_own_formulas(search, node):
         return False
-    if len(node.members) > 1 and any(len(each.members) == 1 and _is_another(search, each) for each in search.nodes):
+    alone = (each for each in search.nodes if len(each.members) == 1 and _is_another(search, each))
+    if len(node.members) > 1 and not all(are_no_form_of(search, node, each.hypotheses[0]) for each in alone):
         return False
     held = search.checked(node).heldout
     base, left = search.root.trial, search.left_by_formulas(node.trial)

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from hexdbb.evidence.fit.node import Node
 from hexdbb.evidence.linear.screen import Hypothesis, Known
+from hexdbb.evidence.search.by_formulas import are_no_form_of
 from hexdbb.evidence.search.last_resort import axes_along, stands_before
 from hexdbb.evidence.search.refine import finely_tuned, refined
 from hexdbb.evidence.search.settling import (
@@ -134,7 +135,9 @@ def _one_for_sure(search: Search, several: Node) -> Node | None:
         for each in search.nodes
         if len(each.members) == 1 and isinstance(each.hypotheses[0], Known) and each.hypotheses[0].effect in effects
     ]
-    return max((each for each in every if _is_sure_alone(search, each)), key=lambda each: each.score, default=None)
+    sure = (each for each in every if _is_sure_alone(search, each))
+    found = (each for each in sure if not are_no_form_of(search, several, each.hypotheses[0]))
+    return max(found, key=lambda each: each.score, default=None)
 
 
 def _is_sure_alone(search: Search, each: Node) -> bool:
