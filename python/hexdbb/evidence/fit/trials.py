@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from hexdbb.errors import RunError
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.fit.fits import fitted
-from hexdbb.evidence.fit.trial import Member, Trial
+from hexdbb.evidence.fit.trial import NOTHING_LEFT, Member, Trial
 from hexdbb.evidence.forms.alike import gained_alike
 from hexdbb.evidence.forms.form import Form, Forms
 from hexdbb.evidence.forms.homes import Homes
@@ -95,7 +95,7 @@ class Trials:
         return self._ordered(self._known[key], members)
 
     def _beside_forms(self, trial: Trial) -> Trial:
-        """Return what fits beside forms find, where that has more evidence than a fit of formulas alone.
+        """Return what fits beside forms find, where that leaves far less than a fit of formulas alone.
 
         Such a fit need not describe what forms do: a spike of three times the noise was held at zero by what the
         formula of a bow of thirty left. First beside the forms of all but the last, which had taken half of the spike,
@@ -103,27 +103,42 @@ class Trials:
         without it is worth the time, and a shape, of which first order tells nothing.
         """
         before = self._known.get(_key(trial.members[:-1])) if len(trial.members) > 1 else None
-        if before is None or not any(before.columns_of_forms()):
+        if before is None or trial.left - 1.0 < NOTHING_LEFT or not any(before.columns_of_forms()):
             return trial
         last, gain = trial.members[-1].hypothesis, trial.log_evidence - before.log_evidence
         has_shape = isinstance(last, Known) and self.engine.absent.has_shape(last.effect)
         if gain < self.criteria.detect_nats and not has_shape:
             return trial
-        trial = self._better(trial, partial(fitted, before=before, less=self._beyond_formulas(before)))
-        return self._better(trial, partial(fitted, near=trial, less=self._beyond_formulas(trial)))
+        found = self._fitted_beside(trial, partial(fitted, before=before, less=self._beyond_formulas(before)))
+        again = self._fitted_beside(found, partial(fitted, near=found, less=self._beyond_formulas(found)))
+        best = max(found, again, key=lambda each: each.log_evidence)
+        # Of two fits that leave nearly the same the one of formulas keeps less in free functions: a gain beside a
+        # delay left 1.20 in place of 1.21 times the noise, and erred by 19 in place of 5 where a feed was left out.
+        is_far_better = best.left - 1.0 < self.criteria.far_better * (trial.left - 1.0)
+        best = best if best.log_evidence > trial.log_evidence and is_far_better else trial
+        if best is not again:
+            self._linear.pop(_key(trial.members), None)  # of the fit made last; made anew where it is asked for
+        return best
 
-    def _better(self, trial: Trial, fit: Callable[[Engine, Sequence[Member]], Fitted]) -> Trial:
-        """Return a trial as another fit finds it, where that has more evidence."""
-        key = _key(trial.members)
-        kept = self.linear(trial)
+    def beside_own_forms(self, trial: Trial) -> Trial:
+        """Fit a set again beside what the functions of its forms describe; return what has more evidence.
+
+        To first order a form is right where formulas alone end, and what it leaves there is predicted: a lead beside a
+        bow erred by 3.5 times the noise on circles left out, by 1.6 fitted so.
+        """
+        again = self._fitted_beside(trial, partial(fitted, near=trial, less=self._beyond_formulas(trial)))
+        if again.log_evidence <= trial.log_evidence:
+            self._linear.pop(_key(trial.members), None)
+            return trial
+        self._known[_key(trial.members)] = again
+        return again
+
+    def _fitted_beside(self, trial: Trial, fit: Callable[[Engine, Sequence[Member]], Fitted]) -> Trial:
+        """Return a trial as another fit finds it; the same where there is none."""
         try:
-            again = self._about(trial.members, fit(self.engine, trial.members))
+            return self._about(trial.members, fit(self.engine, trial.members))
         except RunError:
             return trial
-        if again.log_evidence > trial.log_evidence:
-            return again
-        self._linear[key] = kept
-        return trial
 
     def _ordered(self, trial: Trial, members: Sequence[Member]) -> Trial:
         """Return a trial with its members in an order: what is asked of the last one is asked of what was added."""

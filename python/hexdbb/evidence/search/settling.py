@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from hexdbb.evidence.fit.trial import NOTHING_LEFT
 from hexdbb.evidence.search.place import homes_of
 from hexdbb.learned import ALL, Learned
 from hexdbb.learned.places import SHARED
@@ -13,10 +14,6 @@ if TYPE_CHECKING:
     from hexdbb.evidence.fit.node import Node
     from hexdbb.evidence.fit.trial import Trial
     from hexdbb.evidence.search.search import Search
-
-NOTHING_LEFT = 0.03
-"""Mean square beyond the noise, in noise variances, that is none: a standard deviation of the mean square of 2,000
-independent readings, of 10,000 where noise lasts for five."""
 
 
 def predicts(search: Search, node: Node) -> bool:

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING
 
 from hexdbb.errors import RunError
 from hexdbb.evidence.fit.node import Node
-from hexdbb.evidence.fit.trial import Member, Trial
+from hexdbb.evidence.fit.trial import NOTHING_LEFT, Member, Trial
 from hexdbb.evidence.linear.physical import is_one_sided
 from hexdbb.evidence.linear.screen import Known
 from hexdbb.evidence.search.all_elements import FEWEST
-from hexdbb.evidence.search.settling import NOTHING_LEFT, explained
+from hexdbb.evidence.search.settling import explained
 
 if TYPE_CHECKING:
     from hexdbb.evidence.search.search import Search

@@ -8,13 +8,14 @@ where that, of few values, explains nearly all that the formulas found leave, it
 from __future__ import annotations
 
 from hexdbb.evidence.fit.node import Node
+from hexdbb.evidence.fit.trial import NOTHING_LEFT
 from hexdbb.evidence.linear.readings import ARC
 from hexdbb.evidence.linear.screen import Known, Scored
 from hexdbb.evidence.search.needed import push_one_element
 from hexdbb.evidence.search.no_form import NOISE
 from hexdbb.evidence.search.screened import known_by_formulas
 from hexdbb.evidence.search.search import Search
-from hexdbb.evidence.search.settling import NOTHING_LEFT, errs_as_expected, predicts
+from hexdbb.evidence.search.settling import errs_as_expected, predicts
 from hexdbb.evidence.search.several import beside
 
 LEAST = 0.5
@@ -38,7 +39,8 @@ def with_what_formulas_leave(search: Search, node: Node) -> Node:
     while node.members and node.is_known and len(node.members) < search.criteria.max_effects:
         if search.left_by_formulas(node.trial) - 1.0 < LEAST:
             break
-        found = [each for each in search.tried(node, _likeliest(search, node)) if _is_there(search, node, each)]
+        tried = (_as_well_fitted(search, each) for each in search.tried(node, _likeliest(search, node)))
+        found = [each for each in tried if _is_there(search, node, each)]
         if not found:
             break
         search.nodes += found
@@ -54,6 +56,14 @@ def _likeliest(search: Search, node: Node) -> list[Scored]:
     by_formulas = known_by_formulas(search, node.trial)[: search.criteria.full_fits]
     there = {each.hypothesis for each in by_formulas}
     return [*by_formulas, *(each for each in beside(search, node) if each.hypothesis not in there)]
+
+
+def _as_well_fitted(search: Search, node: Node) -> Node:
+    """Return a set that leaves only noise, but errs on what was left out, as it fits beside its forms."""
+    if node.trial.refused or node.trial.left - 1.0 >= NOTHING_LEFT or errs_as_expected(search, node):
+        return node
+    again = search.trials.beside_own_forms(node.trial)
+    return Node(again, node.score + again.log_evidence - node.trial.log_evidence)
 
 
 def _is_there(search: Search, node: Node, wider: Node) -> bool:

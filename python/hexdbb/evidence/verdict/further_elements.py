@@ -6,11 +6,11 @@ from collections.abc import Iterator
 
 from hexdbb.errors import RunError
 from hexdbb.evidence.fit.node import Node
-from hexdbb.evidence.fit.trial import Member
+from hexdbb.evidence.fit.trial import NOTHING_LEFT, Member
 from hexdbb.evidence.linear.screen import Known
 from hexdbb.evidence.search.needed import is_form_alone
 from hexdbb.evidence.search.search import Search
-from hexdbb.evidence.search.settling import NOTHING_LEFT, missed
+from hexdbb.evidence.search.settling import missed
 from hexdbb.evidence.search.sure import is_for_sure
 
 MOST_BEFORE = 2

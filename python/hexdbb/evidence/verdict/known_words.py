@@ -7,7 +7,7 @@ from itertools import product
 
 from hexdbb.errors import RunError
 from hexdbb.evidence.fit.node import Node
-from hexdbb.evidence.fit.trial import Member
+from hexdbb.evidence.fit.trial import NOTHING_LEFT, Member
 from hexdbb.evidence.forms.form import Form
 from hexdbb.evidence.linear.screen import Hypothesis, Known
 from hexdbb.evidence.search.needed import explained_beyond, explains_by_its_formula
@@ -15,7 +15,6 @@ from hexdbb.evidence.search.place import at_its_place
 from hexdbb.evidence.search.screened import add_kin
 from hexdbb.evidence.search.search import Search
 from hexdbb.evidence.search.settling import (
-    NOTHING_LEFT,
     explained_by_formulas,
     explains_nearly,
     is_doubtful,

@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from hexdbb.evidence.fit.node import Node
+from hexdbb.evidence.fit.trial import NOTHING_LEFT
 from hexdbb.evidence.forms.form import Form
 from hexdbb.evidence.linear.screen import Hypothesis, Known
 from hexdbb.evidence.search.needed import by_formulas_instead, explains_more
 from hexdbb.evidence.search.place import at_a_place_of_its_kin
 from hexdbb.evidence.search.search import Search
-from hexdbb.evidence.search.settling import NOTHING_LEFT, missed
+from hexdbb.evidence.search.settling import missed
 from hexdbb.evidence.search.sure import is_for_sure, misses_only_geometry
 from hexdbb.evidence.verdict.elsewhere import rivals_elsewhere
 from hexdbb.evidence.verdict.one_state import of_one_state

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from hexdbb.evidence.fit.node import Node
+from hexdbb.evidence.fit.trial import NOTHING_LEFT
 from hexdbb.evidence.linear.screen import Hypothesis, Known
 from hexdbb.evidence.search.all_elements import FEWEST
 from hexdbb.evidence.search.by_formulas import explain_nearly_all, explains_by_its_own
 from hexdbb.evidence.search.screened import known_beside
 from hexdbb.evidence.search.search import Search
-from hexdbb.evidence.search.settling import NOTHING_LEFT, is_complete, must_explain, of_forms
+from hexdbb.evidence.search.settling import is_complete, must_explain, of_forms
 from hexdbb.evidence.search.shortlist import shortlist
 from hexdbb.evidence.verdict.without import acts_where_they_do, has_effect, sets_without
 
