@@ -63,8 +63,6 @@ class Trials:
         self._base: dict[tuple[str, ...], Sums] = {}
         self._last_sums: tuple[Trial, tuple[str, ...], Sums] | None = None
         """What a check asks several questions of."""
-        self._last_beyond: tuple[Trial, Floats] | None = None
-        """That beside which a search fits one hypothesis after the other."""
 
     def of(self, members: Sequence[Member], near: Trial | None = None) -> Trial:
         """Fit a model with hypotheses.
@@ -205,7 +203,7 @@ class Trials:
         self._linear.clear()
         self._base.clear()
         self._ahead.clear()
-        self._last_sums = self._last_beyond = None
+        self._last_sums = None
         self.forms.functions.forget()
 
     def linear(self, trial: Trial) -> Linear:
@@ -376,17 +374,15 @@ class Trials:
         either takes from the other what both may say. A fit beside it need not describe it: a spike of three times the
         noise was held at zero by what the formula of a bow of thirty left.
         """
-        forms = [columns for _, columns in trial.columns_of_forms()]
-        if not forms:
+        if not any(trial.columns_of_forms()):
             return None
-        if self._last_beyond is None or self._last_beyond[0].model is not trial.model:
-            about, linear = self.engine.linearised(trial.model).linear, self.linear(trial)
-            change = linear.standing.copy()
-            change[: len(about.standing)] -= about.standing
-            of_effects = np.ones(len(change), bool)
-            of_effects[: len(about.standing)] = ~self.engine.geometry_of(trial.model)
-            self._last_beyond = trial, linear.own[:, of_effects] @ change[of_effects]
-        return self._last_beyond[1]
+        about, linear = self.engine.linearised(trial.model).linear, self.linear(trial)
+        change = linear.standing.copy()
+        change[: len(about.standing)] -= about.standing
+        of_effects = np.ones(len(change), bool)
+        of_effects[: len(about.standing)] = ~self.engine.geometry_of(trial.model)
+        pushed: Floats = linear.own[:, of_effects] @ change[of_effects]
+        return pushed
 
 
 def _key(members: Sequence[Member]) -> frozenset[str]:

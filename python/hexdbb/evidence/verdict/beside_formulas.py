@@ -39,7 +39,7 @@ def with_what_formulas_leave(search: Search, node: Node) -> Node:
     while node.members and node.is_known and len(node.members) < search.criteria.max_effects:
         if search.left_by_formulas(node.trial) - 1.0 < LEAST:
             break
-        tried = (_as_well_fitted(search, each) for each in search.tried(node, _likeliest(search, node)))
+        tried = (_as_well_fitted(search, node, each) for each in search.tried(node, _likeliest(search, node)))
         found = [each for each in tried if _is_there(search, node, each)]
         if not found:
             break
@@ -58,12 +58,13 @@ def _likeliest(search: Search, node: Node) -> list[Scored]:
     return [*by_formulas, *(each for each in beside(search, node) if each.hypothesis not in there)]
 
 
-def _as_well_fitted(search: Search, node: Node) -> Node:
-    """Return a set that leaves only noise, but errs on what was left out, as it fits beside its forms."""
-    if node.trial.refused or node.trial.left - 1.0 >= NOTHING_LEFT or errs_as_expected(search, node):
-        return node
-    again = search.trials.beside_own_forms(node.trial)
-    return Node(again, node.score + again.log_evidence - node.trial.log_evidence)
+def _as_well_fitted(search: Search, node: Node, wider: Node) -> Node:
+    """Fit a set again beside its forms if it is likelier and leaves only noise, but mispredicts what was held out."""
+    is_likelier = not wider.trial.refused and wider.score - node.score >= search.criteria.detect_nats
+    if not is_likelier or wider.trial.left - 1.0 >= NOTHING_LEFT or errs_as_expected(search, wider):
+        return wider
+    again = search.trials.beside_own_forms(wider.trial)
+    return Node(again, wider.score + again.log_evidence - wider.trial.log_evidence)
 
 
 def _is_there(search: Search, node: Node, wider: Node) -> bool:
